@@ -225,7 +225,7 @@ TEST_CASE("the column of the encoder zero is the torque's derivative", "[conform
       JointSignals& s = signals.joints.emplace_back();
       s.q = at.q;
       s.theta = at.theta;
-      s.thetad = s.tau = s.theta_direction = Eigen::ArrayXd::Zero(1);
+      s.thetad = s.tau = s.approach = Eigen::ArrayXd::Zero(1);
       Eigen::MatrixXd row(1, c.count);
       equation.fill(signals, row);
       const auto motor_at = [&](double step) {

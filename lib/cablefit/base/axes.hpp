@@ -8,6 +8,9 @@
 
 namespace cablefit {
 
+/// In mrad or mm, as tables and plots show deflections.
+inline constexpr double kMilli = 1e3;
+
 enum class Axes { rotary, linear, mixed };
 
 /// "rotary", "linear", "mixed".

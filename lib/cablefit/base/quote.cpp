@@ -10,8 +10,6 @@ namespace {
 
 constexpr std::size_t kMaxBytes = 60;
 
-bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; }
-
 // Length of the sequence that a UTF-8 lead byte announces, 0 when it is none.
 std::size_t announced_length(unsigned char lead) {
   if (lead >= 0xC2 && lead <= 0xDF) return 2;

@@ -6,6 +6,9 @@
 
 namespace cablefit {
 
+/// Whether a byte of UTF-8 continues the character before it.
+inline bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; }
+
 /// Control bytes, bytes that are not UTF-8 and marks that turn the direction of text become \xNN: a
 /// file cannot steer the terminal.
 std::string printable(std::string_view text);

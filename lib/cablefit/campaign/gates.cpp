@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 
 #include "cablefit/base/json/json_document.hpp"
 #include "cablefit/base/json/schemas.hpp"

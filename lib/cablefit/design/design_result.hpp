@@ -2,7 +2,6 @@
 // and m for rad.
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>

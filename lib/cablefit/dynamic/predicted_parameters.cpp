@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "cablefit/base/parameter.hpp"
 #include "cablefit/estimate/solve/identifiability.hpp"

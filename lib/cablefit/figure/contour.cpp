@@ -1,7 +1,6 @@
 #include "cablefit/figure/contour.hpp"
 
 #include <array>
-#include <limits>
 #include <map>
 #include <set>
 #include <utility>

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "cablefit/identify/equations/preload_jobs.hpp"
 #include "cablefit/identify/identify.hpp"
 #include "cablefit/model/rig/searched_radius.hpp"
 #include "cablefit/model/rig_facts.hpp"

@@ -1,6 +1,7 @@
 // The table of log formats. A new format is one file with these two functions and one row here.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <string>
@@ -13,7 +14,7 @@ namespace cablefit {
 inline constexpr const char* kMissingHint =
     "fill it, or leave the row out by --missing drop, or hold the value before by --missing hold";
 
-/// What a log is recognised by: its first bytes.
+/// First bytes of a log, which show its format.
 inline constexpr std::size_t kHeadBytes = 1u << 16;
 
 struct LogFormatRow {

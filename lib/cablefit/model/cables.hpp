@@ -169,6 +169,9 @@ Transmission classical_spring(const Transmission& cables);
 /// Sets the pose in which every l = l_o.
 void set_reference(Transmission& transmission, const ReferencePose& pose);
 
+/// Of the cables' polynomials where nothing else is given: the paper's.
+inline constexpr int kDefaultOrder = 2;
+
 /// The paper's rig: one joint, two antagonist cables named "1" and "2" in joint space, same order.
 Transmission antagonist_pair(int order);
 /// One such pair per joint; the cables of joint k (from 1) are named 2k-1 and 2k.

@@ -16,7 +16,6 @@ constexpr std::array<std::pair<std::string_view, Axes>, 2> kMotions{
     {{"rotary", Axes::rotary}, {"linear", Axes::linear}}};
 constexpr std::array<std::pair<std::string_view, TorqueHold>, 3> kHolds{
     {{"auto", TorqueHold::automatic}, {"zoh", TorqueHold::zoh}, {"none", TorqueHold::none}}};
-constexpr int kDefaultOrder = 2;
 
 /// One antagonist pair per joint in joint space: what a rig has when its file names no cables.
 void set_default_cables(Rig* rig) {

@@ -40,7 +40,7 @@ StiffnessModes stiffness_modes(const StiffnessMatrices& matrices);
 Eigen::VectorXd cable_stiffnesses(const Transmission& transmission, const Eigen::VectorXd& q,
                                   const Eigen::VectorXd& theta);
 
-/// Hz, of a motor and a link (kg m^2) on one spring (N m/rad) that swing freely:
+/// Free resonance, Hz, of a motor and a link (kg m^2) joined by a spring (N m/rad):
 /// sqrt(K (1/J_m + 1/J_l))/(2 pi).
 double free_resonance(double stiffness, double j_motor, double j_link);
 

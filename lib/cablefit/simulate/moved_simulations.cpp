@@ -1,6 +1,5 @@
 #include "cablefit/simulate/moved_simulations.hpp"
 
-#include <limits>
 #include <numeric>
 
 #include "cablefit/base/parallel.hpp"

@@ -20,8 +20,6 @@
 namespace cablefit {
 namespace {
 
-constexpr Eigen::Index kMinRows = 8;  // of a stretch, as of a part
-
 /// Rows of the log of that number, from 1.
 using TrajectorySink = std::function<void(std::size_t, const ReplayedRows&)>;
 
@@ -91,7 +89,7 @@ class LogReplay {
       return bool(replays_[static_cast<std::size_t>(&part - log_.parts.data())]);
     };
     const WindowCounts counts =
-        for_each_window(log_, wanted, halo_, kMinRows, 0.0, [&](Window&& window) {
+        for_each_window(log_, wanted, halo_, kFewestRows, 0.0, [&](Window&& window) {
           std::optional<ReplayFigures>& figures = figures_[window.part];
           if (!figures) {
             replays_[window.part]->add(window, sink);

@@ -59,13 +59,13 @@ std::string unexpected_token(std::string_view theirs) {
   return std::string(theirs.substr(begin, theirs.find("; expected", begin) - begin));
 }
 
-/// `n_taken`: from the beginning of the text.
+/// `bytes_parsed`: counted from the beginning of the text.
 TextPosition error_position(std::string_view theirs, const JsonCursor& cursor,
-                            std::size_t n_taken) {
+                            std::size_t bytes_parsed) {
   if (mentions(theirs, "unexpected end of input")) return cursor.end();
   // "1.]" or "tru]": the byte that the parser stumbled over is read, but the word is to blame.
-  const bool is_broken_word = mentions(theirs, "invalid") && cursor.word_end() + 1 == n_taken;
-  return is_broken_word ? cursor.latest(JsonCursor::word) : cursor.last_before(n_taken);
+  const bool is_broken_word = mentions(theirs, "invalid") && cursor.word_end() + 1 == bytes_parsed;
+  return is_broken_word ? cursor.latest(JsonCursor::word) : cursor.last_before(bytes_parsed);
 }
 
 const Rewording& find_rewording(std::string_view theirs) {
@@ -105,11 +105,11 @@ class Adapter final : public nlohmann::json::json_sax_t {
   bool binary(nlohmann::json::binary_t&) override { return false; }  // not in JSON text
   /// Where the value that comes begins.
   void begin_at(std::size_t byte) { first_byte_ = byte; }
-  bool parse_error(std::size_t n_taken, const std::string&,
+  bool parse_error(std::size_t bytes_parsed, const std::string&,
                    const nlohmann::json::exception& error) override {
     const std::string_view theirs = without_quote(error.what());
     const auto& [needle, what, hint] = find_rewording(theirs);
-    throw input_error(place(error_position(theirs, cursor_, first_byte_ + n_taken)),
+    throw input_error(place(error_position(theirs, cursor_, first_byte_ + bytes_parsed)),
                       what.empty() ? unexpected_token(theirs) : std::string(what),
                       std::string(hint));
   }

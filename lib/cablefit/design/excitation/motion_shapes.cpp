@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kTau = 2 * std::numbers::pi;
 constexpr double kFade = 0.04;  // of the duration, at either end, in which a motion grows from 0
-constexpr double kFadePeriods = 2;  // of the slowest sine
+constexpr double kSlowestPeriods = 2;  // of the slowest sine
 constexpr Eigen::Index kSines = 5;
 constexpr Eigen::Index kPerSine = 3;  // frequency, amplitude, phase
 constexpr Eigen::Index kMoves = 10;
@@ -41,7 +41,7 @@ Eigen::ArrayXd faded(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t) {
   return out;
 }
 
-double lowest_frequency(const ShapeFrame& frame) { return kFadePeriods / frame.duration; }
+double lowest_frequency(const ShapeFrame& frame) { return kSlowestPeriods / frame.duration; }
 
 Eigen::ArrayXd multi_sine(const ShapeFrame& frame, const Eigen::ArrayXd& numbers) {
   const Eigen::ArrayXd t = times(frame);

@@ -104,7 +104,7 @@ Bins collect(const JudgedRows& rows, const std::vector<Condition>& conditions,
              const JudgedModel& model) {
   Bins bins = {std::vector<BinErrors>(1)};
   for (const Condition& c : conditions) bins.emplace_back(c.edges.size() + 1);
-  const Eigen::Index places = std::max<Eigen::Index>(1, stretch_places(rows.last_number));
+  const Eigen::Index places = stretch_places(rows.last_number);
   rows.rows->for_each([&](const Eigen::MatrixXd& batch, std::span<const Eigen::Index> numbers) {
     const auto own = batch.leftCols(rows.n_own);
     const Eigen::VectorXd residual = own * model.residual, torque = own * model.torque;

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kLevel = 0.01;     // below it a p value says that something is there
 constexpr double kMaterial = 0.01;  // of the rms torque
-constexpr double kShownShare =
-    0.1;  // of the rms torque: "none seen" says that as much would have shown
+// Of the rms torque: "none seen" says that as much would have shown.
+constexpr double kShownShare = 0.1;
 constexpr double kManyRows = 0.5;  // share of independent rows above which a memory is small
 constexpr double kAllRows = 0.9;
 constexpr double kFewIndependent = 50;  // independent: fewer look white whatever they are

@@ -27,7 +27,7 @@ enum Column : Eigen::Index {
   kColumns
 };
 
-constexpr double kMostLeft = 0.5;  // of the torque, rms: a law that leaves more fits its noise
+constexpr double kMostResidual = 0.5;  // of the torque, rms: a law that leaves more fits its noise
 constexpr std::array<double, 3> kLags = {0, 0.5, 1};  // rows from command to torque
 
 /// A law by the columns that it has; simple ones first.
@@ -240,7 +240,7 @@ std::optional<ControllerFits> fit_controllers(std::span<const LogSurvey> logs,
   ControllerFits fits;
   for (const LawRows& joint : *rows) {
     const std::optional<ControllerFit> fit = simplest_fit(joint);
-    if (!fit || fit->misfit > kMostLeft * fit->torque) return std::nullopt;
+    if (!fit || fit->misfit > kMostResidual * fit->torque) return std::nullopt;
     fits.joints.push_back(*fit);
   }
   return fits;

@@ -27,7 +27,6 @@ constexpr double kUnfilteredShare = 0.05;  // of the rate, where the regression 
 constexpr int kSurrogateOrder = 4;
 constexpr double kDamping = 0.7;
 constexpr double kLargestGain = 0.5;  // of kd h / J_motor, which is unstable from about 1 on
-constexpr Eigen::Index kMinRows = 8;  // of a stretch, as of a part
 
 std::string no_known_loop(const LogPlan& plan) {
   if (plan.rig.open_loop) return "some logs in open loop, others not";
@@ -171,7 +170,7 @@ LoopResult run_loop(const DynamicJob& job, const LogSurvey& log, const Model& mo
   const double rate = sample_rates({&log, 1}, job.wanted).highest;
   for (const double step : {kLoopStep, SimulationOptions{}.step}) {
     LogLoop loop(log, model, plan, job.settings.rows.signal.torque_held, step);
-    for_each_window(log, job.wanted, halo(plan, rate), kMinRows,
+    for_each_window(log, job.wanted, halo(plan, rate), kFewestRows,
                     bridge_seconds(job.settings.rows.signal),
                     [&](Window&& window) { return loop.add(window); });
     if (!loop.diverged()) {

@@ -13,7 +13,7 @@ namespace cablefit {
 namespace {
 
 constexpr int kMostSteps = 8;
-constexpr double kStepStill = 0.05;  // sd
+constexpr double kSmallestStepSd = 0.05;  // sd
 
 /// One linear problem: J, r and Z of the parameters that move, compressed, prior included.
 struct Step {
@@ -142,7 +142,7 @@ InstrumentalFit solve_instrumental(
     for (std::size_t k = 0; k < free.size(); ++k)
       longest = std::max(longest, std::abs(change(static_cast<Eigen::Index>(k))) /
                                       std::sqrt(fit.covariance(free[k], free[k])));
-    if (longest <= kStepStill) {
+    if (longest <= kSmallestStepSd) {
       fit.failure.clear();
       return fit;
     }

@@ -8,7 +8,7 @@
 namespace cablefit {
 namespace {
 
-constexpr Eigen::Index kFewestRows = 16;
+constexpr Eigen::Index kFewestStretchRows = 16;
 
 double at(const Eigen::ArrayXXd& table, Eigen::Index row, Eigen::Index joint) {
   return table.size() > 0 ? table(row, joint) : 0.0;
@@ -63,7 +63,7 @@ std::vector<OutputErrorWindow> cut_windows(const Model& model,
   std::size_t number = 0;
   for (const MeasuredStretch& stretch : stretches) {
     const Eigen::Index n_rows = stretch.theta.rows();
-    if (n_rows < kFewestRows) continue;
+    if (n_rows < kFewestStretchRows) continue;
     const double wanted = static_cast<double>(n_rows) * stretch.period / seconds;
     const auto n = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::llround(wanted)));
     for (Eigen::Index i = 0; i < n; ++i) {

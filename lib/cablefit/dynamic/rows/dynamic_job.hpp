@@ -61,7 +61,7 @@ std::vector<EquationRows> make_equations(const DynamicJob& job, ElasticDetail de
 /// otherwise each alone.
 std::vector<std::vector<std::size_t>> systems_of(const std::vector<EquationRows>& equations);
 
-/// Windows of every log that settings of the motion are chosen by.
+/// First windows of every log that a preliminary fit uses.
 inline constexpr int kPreliminaryWindows = 8;
 
 /// The equations with the rows of only the first `n_windows` windows of every log.

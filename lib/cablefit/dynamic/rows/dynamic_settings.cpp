@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -16,11 +15,9 @@
 namespace cablefit {
 namespace {
 
-using std::numbers::pi;
-
 // f0 of the elastic drive needs inertias, which are what is looked for. A first fit with a generous
 // band gives them; the CAD values are never used.
-double rough_resonance(double stiffness, double j_link, double j_motor) {
+double rough_resonance(double stiffness, double j_motor, double j_link) {
   if (!(j_link > 0) || !(j_motor > 0) || !(stiffness > 0)) return 0;
   return free_resonance(stiffness, j_motor, j_link);
 }
@@ -59,7 +56,7 @@ std::vector<double> preliminary_resonances(DynamicJob& job, const ElasticResult&
     const double stiffness = stage1 == nullptr ? 0
                              : n == 1          ? typical_stiffness(fit, *stage1, joint)
                                       : typical_stiffness(fit, stage1->joints[link / 2], joint);
-    const double f0 = rough_resonance(stiffness, j_link, j_motor);
+    const double f0 = rough_resonance(stiffness, j_motor, j_link);
     resonances.push_back(f0 < rate / 2 ? f0 : 0);
   }
   return resonances;

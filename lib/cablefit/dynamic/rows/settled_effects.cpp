@@ -10,7 +10,7 @@ namespace cablefit {
 namespace {
 
 constexpr int kMostPasses = 12;
-constexpr double kStillEffect = 0.1;  // sd
+constexpr double kSmallestMoveSd = 0.1;  // sd
 
 bool has_nonlinear(const std::vector<EquationRows>& equations) {
   return std::any_of(equations.begin(), equations.end(), [](const EquationRows& e) {
@@ -20,10 +20,10 @@ bool has_nonlinear(const std::vector<EquationRows>& equations) {
 }
 
 /// Moves the effects of one equation to its solution; what that does not determine stays. The
-/// parameter that moved most; empty: none did by more than kStillEffect.
+/// parameter that moved most; empty: none did by more than kSmallestMoveSd.
 std::string move_effects(const DynamicColumns& columns, LinearSolution s, EffectsPerJoint& added) {
   std::string moved;
-  double furthest = kStillEffect;
+  double furthest = kSmallestMoveSd;
   for (std::size_t k = 0; k < columns.parameters.size(); ++k) {
     const DynamicParameter& p = columns.parameters[k];
     const auto at = static_cast<Eigen::Index>(k);

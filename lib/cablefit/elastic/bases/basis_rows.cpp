@@ -29,6 +29,7 @@ void fill_atoms(const BlockedRows& rows, const std::vector<CableAtom>& atoms,
 Equation with_atoms(const BlockedRows& rows, const std::vector<CableAtom>& atoms) {
   Equation wide = rows.equations.front();
   const std::size_t n = wide.columns.size() + atoms.size();
+  wide.shares_columns = false;
   wide.columns.resize(n);
   wide.averaged.resize(n, false);
   wide.fill = [narrow = rows.equations.front(), &rows, &atoms](const Signals& signals,

@@ -34,10 +34,11 @@ struct ElasticJob {
 ElasticJob make_job(std::span<const LogSurvey> logs, const ElasticOptions& options,
                     const std::string& name);
 
-/// Of the cables in a first fit, from which the zeros are looked for: those given, else 2.
+/// Orders of the cables in the first fit, which finds the encoder zeros: those given, else 2.
 std::vector<int> preliminary_orders(const ElasticJob& job);
 
-/// Of the torque's spread: a larger offset is an encoder's zero rather than the drive's.
+/// Of the torque's amplitude, sqrt(2) times its rms about the offset: a larger offset suggests an
+/// encoder's zero. Of one joint it is then searched, of several it is reported.
 inline constexpr double kArbitraryZero = 0.05;
 
 /// Rows of one joint's equation under one choice of theta_0, or of all joints' together.

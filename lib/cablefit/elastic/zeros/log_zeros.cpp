@@ -13,7 +13,7 @@
 namespace cablefit {
 namespace {
 
-constexpr Eigen::Index kFewestRows = 10;
+constexpr Eigen::Index kFewestZeroRows = 10;
 constexpr double kMostOf = 0.75;      // of the squared residual, that zeros of their own explain
 constexpr double kWorthWords = 0.02;  // of the peak torque, that is left without them
 
@@ -34,7 +34,7 @@ Eigen::MatrixXd triangle_of(const ElasticJob& job, std::size_t log, const Blocke
   const auto& parts = own.logs.front().parts;
   if (std::none_of(parts.begin(), parts.end(), job.wanted)) return {};
   const BlockedRows some = collect_blocked(own, rows.transmission.theta_0(0), &fitted);
-  if (some.plateaus != rows.plateaus || some.rows->n_rows() < kFewestRows) return {};
+  if (some.plateaus != rows.plateaus || some.rows->n_rows() < kFewestZeroRows) return {};
   return some.rows->r();
 }
 

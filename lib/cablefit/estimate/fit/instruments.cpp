@@ -6,8 +6,6 @@
 #include "cablefit/estimate/solve/constrained_least_squares.hpp"
 
 namespace cablefit {
-namespace {}  // namespace
-
 double first_stage_f(double share, double effective_rows) {
   return share < 1 ? effective_rows * share / (1 - share) : std::numeric_limits<double>::infinity();
 }

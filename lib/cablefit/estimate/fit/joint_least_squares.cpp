@@ -2,7 +2,6 @@
 
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "cablefit/base/parameter.hpp"
 #include "cablefit/estimate/fit/profile_interval.hpp"

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "cablefit/base/parameter.hpp"
 
 namespace cablefit {
-namespace {}  // namespace
-
 double forgetting_factor(double memory_samples) { return 1 - 1 / memory_samples; }
 
 double equivalent_samples(double forgetting) { return (1 + forgetting) / (1 - forgetting); }

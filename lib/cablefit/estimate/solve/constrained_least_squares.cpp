@@ -9,8 +9,6 @@
 namespace cablefit {
 namespace {
 
-// Of a singular value over the largest, as for the fit without constraints. Below it, data with
-// nine digits in double precision determine nothing.
 // A dual that is this small against |column| |b| is rounding: a few dozen sums of products.
 constexpr double kDualTolerance = 1e-13;
 

@@ -7,7 +7,8 @@
 
 namespace cablefit {
 
-/// Of the largest singular value: directions of scaled columns below it are not determined.
+/// Of a singular value over the largest, with constraints, without, and of instruments. Below it,
+/// data with nine digits in double precision determine nothing.
 inline constexpr double kRankTolerance = 1e-9;
 
 /// Minimises |a u - b| over u >= 0: algorithm NNLS of Lawson & Hanson 1974, ch. 23. `a`: m x n, its

@@ -43,7 +43,7 @@ double quadratic_form(const Eigen::MatrixXd& v, const Eigen::VectorXd& u) {
 
 Eigen::Index stretch_places(Eigen::Index last) {
   constexpr Eigen::Index kMostStretches = 1024;
-  return divided_up(last + 1, kMostStretches);
+  return std::max<Eigen::Index>(1, divided_up(last + 1, kMostStretches));
 }
 
 std::vector<double> bin_edges(std::vector<double> values, std::size_t n_bins) {

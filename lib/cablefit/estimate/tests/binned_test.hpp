@@ -27,8 +27,8 @@ std::vector<double> bin_edges(std::vector<double> values, std::size_t n_bins);
 /// 0 .. edges.size(): a value on an edge belongs to the bin above it.
 std::size_t bin_of(double value, const std::vector<double>& edges);
 
-/// Places of the time grid in each stretch that the covariance is of, where rows are numbered up to
-/// `last`: at most 1024 stretches.
+/// Length of a stretch in places of the time grid, for rows numbered up to `last`: at least 1, and
+/// at most 1024 stretches.
 Eigen::Index stretch_places(Eigen::Index last);
 
 /// F-test of zero means of a residual in all bins of a variable. The bins' scores, sums of the

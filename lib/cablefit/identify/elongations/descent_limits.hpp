@@ -3,8 +3,8 @@
 
 namespace cablefit {
 
-inline constexpr int kMaxIterations = 40;
-inline constexpr double kConverged = 1e-8;     ///< of the reach or the radius, far below any sd
-inline constexpr double kSmallestStep = 2e-3;  ///< of the Gauss-Newton step
+inline constexpr int kMostDescents = 40;
+inline constexpr double kDescentConverged = 1e-8;  ///< of the reach or the radius, far below any sd
+inline constexpr double kSmallestDescent = 2e-3;   ///< of the Gauss-Newton step
 
 }  // namespace cablefit

@@ -129,7 +129,7 @@ void look_ahead(const JointFit& fit, Descent& descent) {
     relative = std::max(relative, std::abs(descent.step(k)) / reach);
   }
   if (relative > kLargestStep) descent.length = kLargestStep / relative;
-  descent.done = !(relative > kConverged);
+  descent.done = !(relative > kDescentConverged);
 }
 
 Elongations moved(const JointFit& fit, const Descent& descent) {
@@ -159,7 +159,7 @@ void judge(const JointFit& fit, JointPoint&& next, Descent& descent) {
     return;
   }
   descent.length /= 4;
-  descent.done = descent.length < kSmallestStep;
+  descent.done = descent.length < kSmallestDescent;
 }
 
 }  // namespace
@@ -199,7 +199,7 @@ std::vector<JointPoint> descend(JointFit& fit, const std::vector<ElongationStart
     descents.push_back({std::move(points[d]), and_radii(fit, starts[d].held), {}, {}});
     look_ahead(fit, descents.back());
   }
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+  for (int iteration = 0; iteration < kMostDescents; ++iteration) {
     std::vector<Elongations> next;
     for (const Descent& descent : descents)
       if (!descent.done) next.push_back(moved(fit, descent));

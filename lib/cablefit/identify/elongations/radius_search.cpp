@@ -56,7 +56,7 @@ JointPoint point_at(JointFit& fit, const JointPoint& from, const RadiusStep& ste
 /// Moves fit and point to the first better place on the way; false: there is none.
 bool advance(JointFit& fit, JointPoint& point, const RadiusStep& step) {
   double length = std::min(1.0, kLargestChange / step.largest());
-  while (length > kSmallestStep) {
+  while (length > kSmallestDescent) {
     JointFit next =
         with_radii(fit, searched_radii(fit).array() * (length * step.ln_radius.array()).exp());
     JointPoint at = point_at(next, point, step, length);
@@ -76,9 +76,9 @@ JointPoint search_radii(JointFit& fit, JointPoint point, const std::vector<Eigen
   const Eigen::Index n_radii =
       static_cast<Eigen::Index>(fit.layout.parameters.size()) - fit.layout.first_radius();
   if (static_cast<Eigen::Index>(held.size()) == n_radii) return point;
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+  for (int iteration = 0; iteration < kMostDescents; ++iteration) {
     const RadiusStep step = step_from(fit, point, held);
-    if (!(step.largest() > kConverged) || !advance(fit, point, step)) break;
+    if (!(step.largest() > kDescentConverged) || !advance(fit, point, step)) break;
   }
   return point;
 }

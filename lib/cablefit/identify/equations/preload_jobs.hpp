@@ -13,9 +13,6 @@
 
 namespace cablefit {
 
-/// Of the cables' polynomials where nothing else is given: the paper's.
-inline constexpr int kDefaultOrder = 2;
-
 /// What is found out about a preload besides its job.
 struct PreloadFacts {
   std::string name;

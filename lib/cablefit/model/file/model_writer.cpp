@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "cablefit/base/json/schemas.hpp"
 #include "cablefit/model/file/parts.hpp"
 #include "cablefit/model/file/writer.hpp"
 

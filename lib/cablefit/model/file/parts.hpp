@@ -6,7 +6,6 @@
 
 #include "cablefit/base/axes.hpp"
 #include "cablefit/base/json/json_document.hpp"
-#include "cablefit/base/json/schemas.hpp"
 #include "cablefit/model/completeness.hpp"
 #include "cablefit/model/model.hpp"
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/base/error.hpp"
 #include "cablefit/figure/explained.hpp"
 #include "cablefit/figure/new_trace.hpp"
@@ -15,9 +16,6 @@
 
 namespace cablefit {
 namespace {
-
-constexpr double kMilli = 1e3;        // tables print mrad and mm
-constexpr Eigen::Index kMinRows = 8;  // of a stretch, as `simulate` wants them
 
 /// A moving part of a test log, and the place of its model.
 struct TestPart {
@@ -68,7 +66,7 @@ Lines replayed(const TestPart& test, const Model& one, double compared) {
   };
   for_each_window(
       *test.log, [&](const PartSurvey& part) { return &part == test.part; }, replay_halo(model),
-      kMinRows, 0.0,
+      kFewestRows, 0.0,
       [&](Window&& window) {
         replay.add(window, take);
         return true;

@@ -14,7 +14,7 @@ namespace {
 // Of an effect's scaled columns: the least squared part that the other columns do not explain. A
 // scan requires more, because the missing effect has biased its base. Here the sd shows how well
 // the effect is determined.
-constexpr double kNotRounding = 1e-7;
+constexpr double kLeastOwnPart = 1e-7;
 
 double value_at(const EffectInstance& instance, std::size_t parameter) {
   return instance.parameters[parameter].value;
@@ -62,7 +62,7 @@ void require_own_columns(const Design& bare, const std::vector<Variant>& kept,
   Design design = bare;
   for (const Variant& variant : kept) {
     design = with_variant(design, variant, values);
-    if (fit_blocks(grams_of(design, settings), levels, false, {kNotRounding, n_linear(variant)}))
+    if (fit_blocks(grams_of(design, settings), levels, false, {kLeastOwnPart, n_linear(variant)}))
       continue;
     throw Error(
         ErrorKind::not_identifiable,

@@ -13,7 +13,7 @@ namespace {
 // rad, from one evaluation to the next at the usual speed: twice as many would pass for slow ones.
 constexpr double kMostPhase = std::numbers::pi;
 constexpr double kBinsPerPeriod = 8;  // of the highest order: its phase is off by 0.4 rad at most
-constexpr std::size_t kMostAngles = 1 << 16;
+constexpr std::size_t kMostPositionBins = 1 << 16;
 
 /// Whether a row is of the motor's equation: a blocked link leaves the motor's.
 bool is_of_motor(const KindRows& rows) { return rows.kind != RowKind::link; }
@@ -72,7 +72,7 @@ std::vector<double> strongest_orders(const Design& design, const Eigen::VectorXd
   const double length = range.high - range.low;
   if (!(length > 0)) return {};
   const double resolved =
-      2 * std::numbers::pi * static_cast<double>(kMostAngles) / (2 * kBinsPerPeriod * length);
+      2 * std::numbers::pi * static_cast<double>(kMostPositionBins) / (2 * kBinsPerPeriod * length);
   const double highest =
       std::min(kMostPhase / (design.scale.speed * evaluation_period(design)), resolved);
   if (!(highest > lowest)) return {};

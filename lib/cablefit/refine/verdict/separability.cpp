@@ -71,7 +71,7 @@ bool are_aliases(const std::vector<Family>& families, const Group& group) {
   });
 }
 
-std::string sited_name(const Effect& row) {
+std::string name_with_site(const Effect& row) {
   return fmt::format("{} ({})", row.name, to_string(row.site));
 }
 
@@ -141,7 +141,7 @@ void advise(std::vector<Open> open, const std::vector<Family>& all, const Design
       for (const std::size_t f : open[k].group)
         if (std::any_of(close.begin(), close.end(),
                         [f](const auto& pair) { return pair.first == f || pair.second == f; }))
-          out[k].still_together.push_back(sited_name(*families[f].row));
+          out[k].still_together.push_back(name_with_site(*families[f].row));
     }
   }
 }
@@ -171,7 +171,7 @@ std::vector<NotSeparable> find_not_separable(const Design& design, const Eigen::
   std::vector<NotSeparable> out;
   for (const Open& one : open) {
     NotSeparable& group = out.emplace_back();
-    for (const std::size_t f : one.group) group.effects.push_back(sited_name(*families[f].row));
+    for (const std::size_t f : one.group) group.effects.push_back(name_with_site(*families[f].row));
     group.from_base = one.from_base;
     group.is_alias = are_aliases(families, one.group);
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/report/parts/document_parts.hpp"
 #include "cablefit/report/parts/estimate_cells.hpp"
 #include "cablefit/report/parts/numbers.hpp"

@@ -27,7 +27,7 @@ std::string group_row(const std::vector<Column>& columns) {
   return "<tr>" + row + "</tr>";
 }
 
-std::string html_header(const Column& column) {
+std::string html_header_cell(const Column& column) {
   const std::string unit =
       column.unit.empty() ? ""
                           : fmt::format("<small>[{}]</small>", html_text(pretty_unit(column.unit)));
@@ -44,7 +44,7 @@ bool has_groups(const std::vector<Column>& columns) {
 std::string head_html(const std::vector<Column>& columns) {
   std::string head = has_groups(columns) ? group_row(columns) : "";
   head += "<tr>";
-  for (const Column& column : columns) head += html_header(column);
+  for (const Column& column : columns) head += html_header_cell(column);
   return "<thead>" + head + "</tr></thead>";
 }
 

@@ -8,9 +8,6 @@
 
 namespace cablefit {
 
-/// Whether a byte of UTF-8 goes on with the character before it.
-inline bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; }
-
 /// Number of characters (code points) of a printable text.
 std::size_t n_characters(std::string_view text);
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/report/parts/numbers.hpp"
 
 namespace cablefit {

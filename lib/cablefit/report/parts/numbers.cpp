@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/base/axes.hpp"
+
 namespace cablefit {
 namespace {
 

@@ -11,9 +11,6 @@ inline constexpr const char* kNoNumber = "-";
 /// Significant digits of errors, gaps and shares; of what is planned or measured; of times.
 inline constexpr int kDigits = 3, kFineDigits = 4, kTimeDigits = 5;
 
-/// What is shown in thousandths: mrad, mm.
-inline constexpr double kMilli = 1e3;
-
 /// `n_digits` significant digits, without an exponent between 1e-5 and 1e7. NaN gives "-".
 std::string significant(double value, int n_digits);
 inline std::string short_number(double value) { return significant(value, kDigits); }

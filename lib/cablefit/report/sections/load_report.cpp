@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/report/parts/document_parts.hpp"
 #include "cablefit/report/parts/numbers.hpp"
 

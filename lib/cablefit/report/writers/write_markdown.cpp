@@ -11,7 +11,7 @@ std::string row_of(const std::vector<std::string>& cells) {
   return line + "\n";
 }
 
-std::string markdown_header(const Column& column) {
+std::string markdown_header_cell(const Column& column) {
   std::string text = column.group.empty() ? "" : column.group + ": ";
   text += column.title;
   if (!column.unit.empty()) text += " [" + column.unit + "]";
@@ -22,7 +22,7 @@ std::string table_text(const Table& table) {
   std::string text = table.title.empty() ? "" : "## " + markdown_text(table.title) + "\n\n";
   std::vector<std::string> titles, rules;
   for (const Column& column : table.columns) {
-    titles.push_back(markdown_header(column));
+    titles.push_back(markdown_header_cell(column));
     rules.emplace_back(column.is_text ? "---" : "---:");
   }
   text += row_of(titles) + row_of(rules);

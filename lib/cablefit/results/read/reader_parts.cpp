@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 #include "cablefit/base/parameter.hpp"
 #include "cablefit/model/file/parts.hpp"

@@ -1,6 +1,7 @@
 #include "cablefit/samples/rows/equation_rows.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -160,7 +161,8 @@ RowBatch rows_of(const Window& window, const LogSurvey& log, Eigen::Index number
       found = signals.emplace(own.signal.cutoff, make_signals(window, log.plan, own.signal)).first;
       found->second.log_began = log.parts.front().t_first;
     }
-    if (!equation.shares_columns || columns.signals == nullptr) columns = {&found->second, {}};
+    if (!equation.shares_columns) columns = {&found->second, {}};
+    assert(columns.signals == &found->second && "the columns of an equation of another cut-off");
     batch.equations.push_back(equation_rows(equation, columns, window, number_offset, own));
   }
   return batch;

@@ -7,6 +7,7 @@ namespace cablefit {
 Equation with_observed(const Equation& equation, const std::vector<Observed>& observed) {
   Equation more = equation;
   const auto n_own = static_cast<Eigen::Index>(equation.columns.size());
+  more.shares_columns = false;
   more.columns.resize(equation.columns.size() + observed.size());
   more.averaged.resize(more.columns.size(), false);
   more.fill = [fill = equation.fill, observed, n_own](const Signals& signals,

@@ -41,14 +41,9 @@ void ChannelScan::look_at_steps(Eigen::Index begin, Eigen::Index end) {
   const Eigen::Index n = end - begin;
   if (n <= 0) return;
   const auto steps = (recent_.segment(begin, n) - recent_.segment(begin - 1, n)).abs();
-  // All at once first: most values have no step below the smallest one seen.
+  // Quick, and enough for a channel that moves all the time.
   if (!(steps.minCoeff() < quantum_)) return;
-  double quantum = quantum_;  // a copy stays in a register
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double step = steps(i);
-    quantum = step < quantum && step > 0 ? step : quantum;
-  }
-  quantum_ = quantum;
+  quantum_ = std::min(quantum_, (steps > 0).select(steps, kUnbounded).minCoeff());
 }
 
 void ChannelScan::add_sixth_differences(Eigen::Index n) {
@@ -57,7 +52,7 @@ void ChannelScan::add_sixth_differences(Eigen::Index n) {
     const double d = x[0] + x[6] - 6 * (x[1] + x[5]) + 15 * (x[2] + x[4]) - 20 * x[3];
     return d * d;
   };
-  // Four sums side by side. Which one a difference goes to depends on its number in the log: how
+  // Four sums side by side. Which one a difference goes to depends on its number in the part: how
   // many values come at a time is as the reader of a file has them, and must not show in the
   // rounding.
   Eigen::Index i = 0;

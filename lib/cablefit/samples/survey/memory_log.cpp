@@ -9,8 +9,6 @@
 namespace cablefit {
 namespace {
 
-constexpr std::size_t kFewestRows = 8;
-
 LogHeader header_of(const std::string& name, std::span<const MemoryColumn> columns) {
   LogHeader header;
   header.path = name;

@@ -15,7 +15,6 @@
 namespace cablefit {
 namespace {
 
-constexpr std::size_t kFewestPartRows = 8;
 constexpr std::size_t kMaxParts = 1000;    // each costs memory here, and passes over the log later
 constexpr std::size_t kFewTimeSteps = 20;  // too few to call a column no clock
 constexpr double kMostBack = 0.2;          // share of the steps of a clock with some faults
@@ -67,11 +66,11 @@ std::string name_of(const PartSurvey& part) {
 }
 
 void require_usable(const PartSurvey& part, const LogPlan& plan) {
-  if (part.n_rows < kFewestPartRows)
+  if (part.n_rows < kFewestRows)
     throw input_error(
         {plan.path, 0, 0},
         fmt::format("{} row{} of {}", part.n_rows, part.n_rows == 1 ? "" : "s", name_of(part)),
-        fmt::format("at least {} rows are needed to detect motion", kFewestPartRows));
+        fmt::format("at least {} rows are needed to detect motion", kFewestRows));
   if (!(part.period > 0) || !std::isfinite(1 / part.period))
     throw input_error({plan.path, 0, 0},
                       fmt::format("no two consecutive rows belong to {}", name_of(part)),

@@ -17,6 +17,9 @@
 
 namespace cablefit {
 
+/// Of a part, and of a stretch of it: fewer do not show a motion.
+inline constexpr std::size_t kFewestRows = 8;
+
 enum class Phase { blocked, moving };
 std::string_view to_string(Phase phase);
 
