@@ -27,12 +27,12 @@ struct Estimate {
   std::string name;
   std::string symbol;
   std::string unit;
-  double value = std::numeric_limits<double>::quiet_NaN();
-  double sd = std::numeric_limits<double>::quiet_NaN();        ///< robust, see docs/explanation
-  double sd_white = std::numeric_limits<double>::quiet_NaN();  ///< the paper's (25)
-  double ci_low = std::numeric_limits<double>::quiet_NaN();    ///< 95 % interval
-  double ci_high = std::numeric_limits<double>::quiet_NaN();
-  double cad = std::numeric_limits<double>::quiet_NaN();  ///< for comparison only, never fitted to
+  double value = kNotKnown;
+  double sd = kNotKnown;        ///< robust, see docs/explanation
+  double sd_white = kNotKnown;  ///< the paper's (25)
+  double ci_low = kNotKnown;    ///< 95 % interval
+  double ci_high = kNotKnown;
+  double cad = kNotKnown;        ///< for comparison only, never fitted to
   std::string not_identifiable;  ///< why there is no sd; empty when there is one
   std::string active_bound;      ///< "f_sm >= 0" when that bound holds the estimate
   /// The interval is that of the profile likelihood and need not be symmetric about the value.
@@ -42,6 +42,9 @@ struct Estimate {
   /// 100 sd / |value|, NaN when either is missing or the value is 0.
   double rsd_percent() const;
 };
+
+/// The parameter of an estimate without a value, and why it has none.
+Estimate refused_estimate(const Estimate& of, std::string why);
 
 /// The estimate of that name, or nullptr.
 const Estimate* find_estimate(const std::vector<Estimate>& estimates, std::string_view name);

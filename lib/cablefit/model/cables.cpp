@@ -205,6 +205,15 @@ Transmission classical_spring(const Transmission& cables) {
   return spring;
 }
 
+Transmission with_coefficients(Transmission transmission, const Eigen::VectorXd& x) {
+  Eigen::Index next = 0;
+  for (Cable& cable : transmission.cables) {
+    cable.coefficients.assign(static_cast<std::size_t>(cable.n_coefficients()), 0.0);
+    for (double& coefficient : cable.coefficients) coefficient = x(next++);
+  }
+  return transmission;
+}
+
 void set_reference(Transmission& transmission, const ReferencePose& pose) {
   transmission.reference = pose;
   const Eigen::VectorXd q = transmission.reference_q(), theta = transmission.reference_theta();

@@ -166,6 +166,9 @@ struct Transmission {
 /// tau_elas_l = N K phi with phi = theta - theta_0 - N q.
 Transmission classical_spring(const Transmission& cables);
 
+/// The same cables with these coefficients, cable by cable.
+Transmission with_coefficients(Transmission transmission, const Eigen::VectorXd& x);
+
 /// Sets the pose in which every l = l_o.
 void set_reference(Transmission& transmission, const ReferencePose& pose);
 

@@ -170,13 +170,7 @@ Estimate estimate_of(const EstimationTask& task, const EquationRows& equation, E
       cablefit::set_interval(e, oe.degrees_of_freedom, lower_of(equation, k));
   }
   const std::string why = doubt(equation, k, oe, e);
-  if (why.empty()) return e;
-  Estimate refused;
-  refused.name = e.name;
-  refused.symbol = e.symbol;
-  refused.unit = e.unit;
-  refused.not_identifiable = why;
-  return refused;
+  return why.empty() ? e : refused_estimate(e, why);
 }
 
 /// Residuals of the equation's rows, filtered as ever, with the parameters of output error: what

@@ -212,12 +212,7 @@ std::vector<std::string> refused_names(const ElasticFit& fit, std::size_t n) {
 
 /// Of many curves that fit the logs equally, the constraint chose one.
 void refuse_value(Estimate& e) {
-  Estimate refused;
-  refused.name = e.name;
-  refused.symbol = e.symbol;
-  refused.unit = e.unit;
-  refused.not_identifiable = "only the constraint that cables pull determines it in these logs";
-  e = refused;
+  e = refused_estimate(e, "only the constraint that cables pull determines it in these logs");
 }
 
 /// The motor's viscous friction, of whichever joint.

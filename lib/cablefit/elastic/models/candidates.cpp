@@ -144,16 +144,9 @@ LinearSolution solve_given(const BlockedRows& rows, const ElasticCandidate& cand
 }
 
 Transmission fitted_transmission(const ElasticCandidate& candidate, const Eigen::VectorXd& x) {
+  if (candidate.model != "linear") return with_coefficients(candidate.transmission, x);
   Transmission transmission = candidate.transmission;
-  if (candidate.model == "linear") {
-    transmission.linear_stiffness = x.head(transmission.n_joints);
-    return transmission;
-  }
-  Eigen::Index next = 0;
-  for (Cable& cable : transmission.cables) {
-    cable.coefficients.assign(static_cast<std::size_t>(cable.n_coefficients()), 0.0);
-    for (double& coefficient : cable.coefficients) coefficient = x(next++);
-  }
+  transmission.linear_stiffness = x.head(transmission.n_joints);
   return transmission;
 }
 

@@ -235,13 +235,7 @@ JointProblem joint_problem(const std::vector<PreloadJob>& jobs, const JointLayou
 
 Transmission fitted_cables(const PreloadJob& job, const Eigen::VectorXd& l_o,
                            const Eigen::VectorXd& x) {
-  Transmission transmission = with_elongations(job.transmission, l_o);
-  Eigen::Index next = 0;
-  for (Cable& cable : transmission.cables) {
-    cable.coefficients.assign(static_cast<std::size_t>(cable.n_coefficients()), 0.0);
-    for (double& coefficient : cable.coefficients) coefficient = x(next++);
-  }
-  return transmission;
+  return with_coefficients(with_elongations(job.transmission, l_o), x);
 }
 
 }  // namespace cablefit
