@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "cablefit/base/parameter.hpp"
+
 namespace cablefit {
 namespace {
 
