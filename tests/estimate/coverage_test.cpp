@@ -208,6 +208,35 @@ TEST_CASE("long-run variance of residuals, regressors that are there for a while
   }
 }
 
+// Coefficients in N/m^3 and N m side by side: a variance has the square of its unit, nothing else.
+TEST_CASE("long-run variance does not depend on the units", "[estimate]") {
+  const Eigen::Index n = 900;
+  const Eigen::Vector4d unit(1e10, 1e4, 1, 1e-7);
+  Normal normal(46350);
+  Eigen::MatrixXd w(n, 4);
+  Eigen::VectorXd residual(n);
+  double slow = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double x = std::sin(0.02 * static_cast<double>(i));
+    w.row(i) << 1, x, x * x, x * x * x;
+    residual(i) = slow = 0.8 * slow + normal();
+  }
+  const auto variances = [&](const Eigen::MatrixXd& columns) -> Eigen::VectorXd {
+    const Eigen::MatrixXd inverse = (columns.transpose() * columns).inverse();
+    std::vector<Eigen::MatrixXd> information;
+    for (Eigen::Index i = 0; i < n; ++i)
+      information.push_back(columns.row(i).transpose() * columns.row(i));
+    const FittedOut fitted = fitted_out(information, inverse);
+    const Eigen::MatrixXd influence =
+        (columns.array().colwise() * residual.array()).matrix() * inverse;
+    return interval_covariance(influence, &fitted).covariance.diagonal();
+  };
+  const Eigen::VectorXd plain = variances(w);
+  const Eigen::VectorXd scaled = variances(w * unit.cwiseInverse().asDiagonal());
+  for (Eigen::Index k = 0; k < 4; ++k)
+    CHECK_THAT(scaled(k) / (unit(k) * unit(k)), Catch::WithinRel(plain(k), 1e-6));
+}
+
 // What was taken out is put back in passes, each from the level that the one before found. Where a
 // fit takes out more than is left the passes grow without end: a variance by 9 at most.
 TEST_CASE("long-run variance grows by a bounded factor", "[estimate]") {
