@@ -88,6 +88,37 @@ TEST_CASE("accumulators of windows add up to one", "[estimate]") {
   CHECK((direct - cell.gram).norm() < 1e-13 * direct.norm());
 }
 
+// Their Gram matrices come from rows that were made nearly orthogonal; a column that the others
+// explain, or that is zero, must not spoil them.
+TEST_CASE("long cells have the Gram matrices of their rows", "[estimate]") {
+  Eigen::MatrixXd rows = random_rows(30000, 7, 6003);
+  rows.col(3) = 2 * rows.col(0) - 0.01 * rows.col(2);
+  rows.col(5).setZero();
+  rows.col(6).segment(3 * 1465, 1465).setZero();  // in one cell alone
+  rows.col(4).segment(5 * 1465, 1465) *= 1e-9;
+  std::vector<Eigen::Index> numbers;
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) numbers.push_back(i);
+  RowStatistics statistics(7, 3000000);
+  REQUIRE(statistics.cell_rows() == 1465);
+  for (Eigen::Index begin = 0; begin < rows.rows(); begin += 8192) {
+    const Eigen::Index n = std::min<Eigen::Index>(8192, rows.rows() - begin);
+    statistics.add(
+        rows.middleRows(begin, n),
+        std::span(numbers).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(n)));
+  }
+  REQUIRE(statistics.cells().size() == 21);
+  for (const GramCell& cell : statistics.cells()) {
+    const auto own = rows.middleRows(cell.id * 1465, cell.n_rows);
+    const Eigen::MatrixXd direct = own.transpose() * own;
+    for (Eigen::Index i = 0; i < 7; ++i)
+      for (Eigen::Index j = 0; j < 7; ++j) {
+        const double scale = own.col(i).norm() * own.col(j).norm();
+        CHECK(std::abs(cell.gram(i, j) - direct(i, j)) <= 1e-13 * scale);
+        CHECK(cell.gram(i, j) == cell.gram(j, i));
+      }
+  }
+}
+
 TEST_CASE("without cells there are none", "[estimate]") {
   RowStatistics rows(3, 100, false);
   const std::vector<Eigen::Index> numbers = {0, 1, 2, 3, 4};

@@ -142,6 +142,31 @@ TEST_CASE("averaged columns have weights (1, 10, 1)/12 on top of the taps", "[sa
              decimation.apply(averaged, middle, 0, n, {})));
 }
 
+// Rows in a run are weighed together; what a row becomes must not show where runs begin and end.
+TEST_CASE("rows of a run are those of each row alone", "[samples]") {
+  const Eigen::Index n = 1200;
+  Eigen::MatrixXd columns(n, 3);
+  for (Eigen::Index i = 0; i < n; ++i)
+    columns.row(i) << std::sin(0.3 * static_cast<double>(i * i)), i < 700 ? 2.5 : 0.1, 0.25;
+  const std::vector<bool> averaged = {true, false, true};
+  for (const int factor : {1, 2, 5}) {
+    std::vector<Eigen::Index> centres;
+    for (Eigen::Index at = 0; at < n; at += factor)
+      if (at % 300 > 40 && at != 600) centres.push_back(at);
+    const Decimation decimation(factor);
+    const Eigen::MatrixXd all = decimation.apply(columns, centres, 0, n, averaged);
+    for (std::size_t k = 0; k < centres.size(); ++k) {
+      const Eigen::MatrixXd one =
+          decimation.apply(columns, std::span(&centres[k], 1), 0, n, averaged);
+      const Eigen::RowVectorXd row = all.row(static_cast<Eigen::Index>(k));
+      CHECK(row(0) == one(0, 0));
+      // A stretch that is constant is taken as it is.
+      CHECK_THAT(row(1), Catch::WithinAbs(one(0, 1), 1e-14));
+      CHECK_THAT(row(2), Catch::WithinAbs(0.25, 1e-15));
+    }
+  }
+}
+
 TEST_CASE("averages take the rows there are at both ends", "[samples]") {
   const Eigen::MatrixXd constant = Eigen::MatrixXd::Constant(7, 5, 2);
   const std::vector<Eigen::Index> centres = {0, 1, 2, 3, 4, 5, 6};

@@ -20,8 +20,15 @@ struct Lanes {
     low += a.low * b.low;
     high += a.high * b.high;
   }
+  void operator+=(const Lanes& a) {
+    low += a.low;
+    high += a.high;
+  }
   double sum() const { return (low[0] + low[1]) + (high[0] + high[1]); }
 };
+
+inline Lanes operator+(const Lanes& a, const Lanes& b) { return {a.low + b.low, a.high + b.high}; }
+inline Lanes scaled(const Lanes& a, double factor) { return {a.low * factor, a.high * factor}; }
 
 /// `p` need not be aligned.
 inline Lanes load(const double* p) {
@@ -35,6 +42,16 @@ inline void store(const Lanes& lanes, double* p) {
   std::memcpy(p, &lanes.low, sizeof lanes.low);
   std::memcpy(p + 2, &lanes.high, sizeof lanes.high);
 }
+
+/// Lane by lane; without a branch.
+inline Lanes least(const Lanes& a, const Lanes& b) {
+  return {a.low < b.low ? a.low : b.low, a.high < b.high ? a.high : b.high};
+}
+inline Lanes greatest(const Lanes& a, const Lanes& b) {
+  return {a.low > b.low ? a.low : b.low, a.high > b.high ? a.high : b.high};
+}
+
+inline Lanes all_lanes(double x) { return {Pair{x, x}, Pair{x, x}}; }
 
 inline double dot(const double* a, const double* b, std::ptrdiff_t n) {
   Lanes lanes;

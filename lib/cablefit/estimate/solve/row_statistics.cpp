@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "cablefit/estimate/solve/cell_places.hpp"
-#include "cablefit/estimate/solve/tall_gram.hpp"
 #include "cablefit/estimate/solve/tall_qr.hpp"
 
 namespace cablefit {
@@ -56,7 +55,7 @@ void StreamingQr::absorb(const Eigen::MatrixXd& r) {
   r_ = qr.matrixQR().topRows(r_.rows()).triangularView<Eigen::Upper>();
 }
 
-void StreamingQr::add(const Rows& rows) { absorb(tall_qr(rows)); }
+void StreamingQr::add(const Rows& rows) { absorb(tall_qr(rows).r); }
 
 void StreamingQr::add(const StreamingQr& other, double scale) { absorb(scale * other.r_); }
 
@@ -72,39 +71,33 @@ RowStatistics RowStatistics::empty_copy() const {
 
 void RowStatistics::add(const Rows& rows, std::span<const Eigen::Index> numbers) {
   if (rows.rows() == 0) return;
-  qr_.add(rows);
-  if (with_cells_) add_to_cells(rows, numbers);
+  assert(!with_cells_ || numbers.size() == static_cast<std::size_t>(rows.rows()));
+  std::vector<Eigen::Index> ids, ends;  // of the cells that the rows belong to
+  for (std::size_t i = 0; with_cells_ && i < numbers.size(); ++i) {
+    const Eigen::Index id = numbers[i] / cell_rows_;
+    if (ids.empty() || ids.back() != id) ids.push_back(id), ends.push_back(0);
+    ends.back() = static_cast<Eigen::Index>(i) + 1;
+  }
+  TallQr qr = tall_qr(rows, ends);
+  qr_.absorb(qr.r);
+  for (std::size_t k = 0; k < ids.size(); ++k)
+    add_cell({ids[k], ends[k] - (k == 0 ? 0 : ends[k - 1]), std::move(qr.grams[k])});
   n_rows_ += rows.rows();
 }
 
-void RowStatistics::add_to_cells(const Rows& rows, std::span<const Eigen::Index> numbers) {
-  Eigen::Index begin = 0;
-  while (begin < rows.rows()) {
-    const Eigen::Index id = numbers[static_cast<std::size_t>(begin)] / cell_rows_;
-    Eigen::Index end = begin + 1;
-    while (end < rows.rows() && numbers[static_cast<std::size_t>(end)] / cell_rows_ == id) ++end;
-    if (cells_.empty() || cells_.back().id != id)
-      cells_.push_back({id, 0, Eigen::MatrixXd::Zero(n_columns_, n_columns_)});
-    GramCell& cell = cells_.back();
-    const auto part = rows.middleRows(begin, end - begin);
-    add_gram(part, cell.gram);
-    cell.gram.triangularView<Eigen::StrictlyLower>() = cell.gram.transpose();
-    cell.n_rows += end - begin;
-    begin = end;
+void RowStatistics::add_cell(GramCell&& cell) {
+  if (!cells_.empty() && cells_.back().id == cell.id) {
+    cells_.back().gram += cell.gram;
+    cells_.back().n_rows += cell.n_rows;
+  } else {
+    cells_.push_back(std::move(cell));
   }
 }
 
 void RowStatistics::add(RowStatistics&& later) {
   if (later.n_rows_ == 0) return;
   qr_.add(later.qr_);
-  for (GramCell& cell : later.cells_) {
-    if (!cells_.empty() && cells_.back().id == cell.id) {
-      cells_.back().gram += cell.gram;
-      cells_.back().n_rows += cell.n_rows;
-    } else {
-      cells_.push_back(std::move(cell));
-    }
-  }
+  for (GramCell& cell : later.cells_) add_cell(std::move(cell));
   n_rows_ += later.n_rows_;
 }
 

@@ -23,10 +23,11 @@ class StreamingQr {
   void add(const Rows& rows);
   /// `scale`: factor of the other's rows.
   void add(const StreamingQr& other, double scale = 1);
+  /// Rows of which `r` is the triangular factor.
+  void absorb(const Eigen::MatrixXd& r);
   const Eigen::MatrixXd& r() const { return r_; }
 
  private:
-  void absorb(const Eigen::MatrixXd& r);
   Eigen::MatrixXd r_;
 };
 
@@ -73,7 +74,7 @@ class RowStatistics {
 
  private:
   RowStatistics(Eigen::Index n_columns, bool with_cells, Eigen::Index cell_rows);
-  void add_to_cells(const Rows& rows, std::span<const Eigen::Index> numbers);
+  void add_cell(GramCell&& cell);
 
   Eigen::Index n_columns_;
   Eigen::Index cell_rows_;

@@ -65,14 +65,9 @@ void divide_lanes(double* rows, Eigen::Index stride, const Eigen::MatrixXd& r,
     Lanes y = load(to);
     for (Eigen::Index i = 0; i < k; ++i) {
       const Lanes x = load(rows + i * stride);
-      const Pair factor = {factors[i], factors[i]};
-      y.low -= x.low * factor;
-      y.high -= x.high * factor;
+      y += scaled(x, -factors[i]);
     }
-    const Pair factor = {over(k), over(k)};
-    y.low *= factor;
-    y.high *= factor;
-    store(y, to);
+    store(scaled(y, over(k)), to);
   }
 }
 

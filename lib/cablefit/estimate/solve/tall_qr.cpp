@@ -2,6 +2,7 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <optional>
 
@@ -10,10 +11,16 @@
 namespace cablefit {
 namespace {
 
-constexpr Eigen::Index kSampleStep = 16;    // every so many rows are the sample
+using TallRows = Eigen::Ref<const Eigen::MatrixXd>;
+
+// Every step-th row is in the sample: the largest step, and the smallest one, below which plain
+// Householder is as quick.
+constexpr Eigen::Index kMostStep = 16, kLeastStep = 3;
 constexpr Eigen::Index kRowsPerColumn = 8;  // in the sample; fewer rows do not stand for the rest
-// Rows that stay near the processor; not a power of two, or all columns would fall on the same few
-// lines of the first-level cache.
+constexpr Eigen::Index kLongStretch = 8;    // rows per column, on average: R0'GR0 costs less then
+constexpr double kFaint = 1e-3;  // share of a column's mean square: R0'GR0 would round it away
+// Rows that stay near the processor; not a power of two, or all columns would fall on the same
+// few lines of the first-level cache.
 constexpr Eigen::Index kBlock = 248;
 constexpr double kNull = 1e-7;    // diagonal of R0 over its column's norm: the column says nothing
 constexpr double kSkewed = 0.05;  // share of a column that the ones before leave, at least
@@ -27,7 +34,7 @@ Eigen::MatrixXd householder(Eigen::MatrixXd rows) {
   return r;
 }
 
-Eigen::MatrixXd blocked_householder(const Eigen::Ref<const Eigen::MatrixXd>& rows) {
+Eigen::MatrixXd blocked_householder(const TallRows& rows) {
   const Eigen::Index n = rows.cols();
   Eigen::MatrixXd r = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index begin = 0; begin < rows.rows(); begin += kBlock) {
@@ -39,19 +46,24 @@ Eigen::MatrixXd blocked_householder(const Eigen::Ref<const Eigen::MatrixXd>& row
   return r;
 }
 
-/// Every 16th row's R. A column that the others explain, or that is zero, keeps its scale as the
-/// diagonal, so that dividing by R leaves of it what little is not explained.
-Eigen::MatrixXd preconditioner(const Eigen::Ref<const Eigen::MatrixXd>& rows) {
-  const Eigen::Index n_sample = rows.rows() / kSampleStep;
+struct Preconditioner {
+  Eigen::MatrixXd r0;
+  Eigen::Index n_sample = 0;
+};
+
+/// R of every step-th row. A column that the others explain, or that is zero, keeps its scale as
+/// the diagonal, so that dividing by R leaves of it what little is not explained.
+Preconditioner preconditioner(const TallRows& rows, Eigen::Index step) {
+  const Eigen::Index n_sample = rows.rows() / step;
   Eigen::MatrixXd sample(n_sample, rows.cols());
   for (Eigen::Index k = 0; k < rows.cols(); ++k)
-    for (Eigen::Index i = 0; i < n_sample; ++i) sample(i, k) = rows(i * kSampleStep, k);
+    for (Eigen::Index i = 0; i < n_sample; ++i) sample(i, k) = rows(i * step, k);
   Eigen::MatrixXd r = householder(std::move(sample));
   for (Eigen::Index k = 0; k < r.cols(); ++k) {
     const double norm = r.col(k).norm();
     if (!(std::abs(r(k, k)) > kNull * norm)) r(k, k) = norm > 0 ? norm : 1;
   }
-  return r;
+  return {std::move(r), n_sample};
 }
 
 /// Upper factor of the Gram matrix of `n_rows` nearly orthogonal rows; null when they are not.
@@ -70,27 +82,80 @@ std::optional<Eigen::MatrixXd> upper_cholesky(const Eigen::MatrixXd& gram, Eigen
   return u;
 }
 
-std::optional<Eigen::MatrixXd> cholesky_qr(const Eigen::Ref<const Eigen::MatrixXd>& rows) {
-  const Eigen::Index n = rows.cols();
-  if (rows.rows() / kSampleStep < kRowsPerColumn * n) return std::nullopt;
-  const Eigen::MatrixXd r0 = preconditioner(rows);
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(n, n);
+/// Gram matrix of rows r0^-1, upper triangle, block by block.
+Eigen::MatrixXd orthogonal_gram(const TallRows& rows, const Eigen::MatrixXd& r0) {
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(rows.cols(), rows.cols());
   Eigen::MatrixXd block;
   for (Eigen::Index begin = 0; begin < rows.rows(); begin += kBlock) {
     block = rows.middleRows(begin, std::min(kBlock, rows.rows() - begin));
     divide_by_triangle(block, r0);
     add_gram(block, gram);
   }
-  const auto u = upper_cholesky(gram, rows.rows());
+  return gram;
+}
+
+/// The upper triangle is the whole.
+void make_symmetric(Eigen::MatrixXd& gram) {
+  gram.triangularView<Eigen::StrictlyLower>() = gram.transpose();
+}
+
+Eigen::MatrixXd plain_gram(const TallRows& rows) {
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(rows.cols(), rows.cols());
+  add_gram(rows, gram);
+  make_symmetric(gram);
+  return gram;
+}
+
+/// `gram` of rows r0^-1 to that of the rows, as exact as the rows themselves give it.
+Eigen::MatrixXd restored_gram(const Eigen::MatrixXd& gram, const Preconditioner& p,
+                              const TallRows& rows) {
+  Eigen::MatrixXd restored = p.r0.transpose() * gram.selfadjointView<Eigen::Upper>() * p.r0;
+  const double share = static_cast<double>(rows.rows()) / static_cast<double>(p.n_sample);
+  for (Eigen::Index k = 0; k < restored.cols(); ++k)
+    if (restored(k, k) < kFaint * share * p.r0.col(k).squaredNorm()) return plain_gram(rows);
+  make_symmetric(restored);
+  return restored;
+}
+
+TallRows stretch(const TallRows& rows, std::span<const Eigen::Index> ends, std::size_t k) {
+  const Eigen::Index begin = k == 0 ? 0 : ends[k - 1];
+  return rows.middleRows(begin, ends[k] - begin);
+}
+
+/// null: not for these rows.
+std::optional<TallQr> cholesky_qr(const TallRows& rows, std::span<const Eigen::Index> ends,
+                                  bool with_grams) {
+  const Eigen::Index n = rows.cols();
+  const Eigen::Index step = std::min(kMostStep, rows.rows() / (kRowsPerColumn * n));
+  if (step < kLeastStep) return std::nullopt;
+  const Preconditioner p = preconditioner(rows, step);
+  TallQr qr;
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    qr.grams.push_back(orthogonal_gram(stretch(rows, ends, k), p.r0));
+    all += qr.grams.back();
+  }
+  const auto u = upper_cholesky(all, rows.rows());
   if (!u) return std::nullopt;
-  return *u * r0;
+  qr.r = *u * p.r0;
+  for (std::size_t k = 0; with_grams && k < ends.size(); ++k)
+    qr.grams[k] = restored_gram(qr.grams[k], p, stretch(rows, ends, k));
+  return qr;
 }
 
 }  // namespace
 
-Eigen::MatrixXd tall_qr(const Eigen::Ref<const Eigen::MatrixXd>& rows) {
-  if (auto r = cholesky_qr(rows)) return *std::move(r);
-  return blocked_householder(rows);
+TallQr tall_qr(const TallRows& rows, std::span<const Eigen::Index> ends) {
+  const Eigen::Index all = rows.rows();
+  assert(ends.empty() || ends.back() == all);
+  const auto n_stretches = static_cast<Eigen::Index>(ends.size());
+  const bool are_long = n_stretches > 0 && all >= kLongStretch * rows.cols() * n_stretches;
+  auto qr = cholesky_qr(rows, are_long ? ends : std::span(&all, 1), are_long);
+  if (qr && are_long) return *std::move(qr);
+  TallQr plain{qr ? std::move(qr->r) : blocked_householder(rows), {}};
+  for (std::size_t k = 0; k < ends.size(); ++k)
+    plain.grams.push_back(plain_gram(stretch(rows, ends, k)));
+  return plain;
 }
 
 }  // namespace cablefit

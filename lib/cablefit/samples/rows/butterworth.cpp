@@ -4,54 +4,56 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <complex>
 #include <numbers>
+
+#include "cablefit/base/lanes.hpp"
 
 namespace cablefit {
 namespace {
 
 using std::numbers::pi;
-constexpr int kAtOnce =
-    4;  // columns filtered side by side, so that the recursion fills the pipeline
-using Lane = Eigen::Array<double, kAtOnce, 1>;
 
-struct State {
-  Lane s1 = Lane::Zero(), s2 = Lane::Zero();
+/// One section of two columns side by side. Of the transposed direct form II the state is advanced
+/// from the state, not from the output: a value then waits for two operations of the one before it
+/// instead of four.
+class Section {
+ public:
+  Section() = default;
+  /// In the steady state of a constant input `x`. All sections have DC gain 1, so the first value
+  /// is every section's steady input.
+  Section(const Biquad& c, Pair x)
+      : b0_(c.b0), b1_(c.b1 - c.a1 * c.b0), b2_(c.b2 - c.a2 * c.b0), a1_(c.a1), a2_(c.a2) {
+    s2_ = (c.b2 - c.a2) * x;
+    s1_ = (c.b1 - c.a1) * x + s2_;
+  }
+  Pair advance(Pair x) {
+    const Pair y = b0_ * x + s1_;
+    const Pair next = (b1_ * x + s2_) - a1_ * s1_;
+    s2_ = b2_ * x - a2_ * s1_;
+    s1_ = next;
+    return y;
+  }
+
+ private:
+  double b0_ = 0, b1_ = 0, b2_ = 0, a1_ = 0, a2_ = 0;
+  Pair s1_{}, s2_{};
 };
-
-// Transposed direct form II; the state that holds a constant input x at its steady output (DC gain
-// 1).
-State steady(const Biquad& section, const Lane& x) {
-  State state;
-  state.s2 = (section.b2 - section.a2) * x;
-  state.s1 = (section.b1 - section.a1) * x + state.s2;
-  return state;
-}
 
 /// N sections in a row over n values from `x` on, `step` (1 or -1) apart. N is known to the
 /// compiler, and the sections are unrolled, so that all states stay in registers.
 template <std::size_t N>
-void sweep(const Biquad* sections, Lane* x, std::size_t n, std::ptrdiff_t step) {
-  std::array<Biquad, N> c;
-  std::array<State, N> states;
-  std::copy_n(sections, N, c.begin());
-  // All sections have DC gain 1, so the first value is every section's steady input.
-  for (std::size_t k = 0; k < N; ++k) states[k] = steady(c[k], *x);
+void sweep(const Biquad* sections, Pair* x, std::size_t n, std::ptrdiff_t step) {
+  std::array<Section, N> row;
+  for (std::size_t k = 0; k < N; ++k) row[k] = Section(sections[k], *x);
   for (std::size_t i = 0; i < n; ++i, x += step) {
-    Lane v = *x;
+    Pair v = *x;
 #pragma GCC unroll 2
-    for (std::size_t k = 0; k < N; ++k) {
-      State& s = states[k];
-      const Lane y = c[k].b0 * v + s.s1;
-      s.s1 = c[k].b1 * v - c[k].a1 * y + s.s2;
-      s.s2 = c[k].b2 * v - c[k].a2 * y;
-      v = y;
-    }
+    for (std::size_t k = 0; k < N; ++k) v = row[k].advance(v);
     *x = v;
   }
 }
 
-void pass(const std::vector<Biquad>& sections, Lane* x, std::size_t n, std::ptrdiff_t step) {
+void pass(const std::vector<Biquad>& sections, Pair* x, std::size_t n, std::ptrdiff_t step) {
   std::size_t k = 0;
   for (; k + 2 <= sections.size(); k += 2) sweep<2>(&sections[k], x, n, step);
   for (; k < sections.size(); ++k) sweep<1>(&sections[k], x, n, step);
@@ -89,23 +91,18 @@ void Butterworth::apply(Eigen::Ref<Eigen::MatrixXd> columns, bool odd_start, boo
   const Eigen::Index pad = std::min(n - 1, settling_rows_);
   const Eigen::Index before = odd_start ? pad : 0;
   const Eigen::Index after = odd_end ? pad : 0;
-  std::vector<Lane> x(static_cast<std::size_t>(before + n + after), Lane::Zero());
-  for (Eigen::Index first = 0; first < columns.cols(); first += kAtOnce) {
-    const int lanes = static_cast<int>(std::min<Eigen::Index>(kAtOnce, columns.cols() - first));
-    for (int lane = 0; lane < lanes; ++lane) {
-      const auto column = columns.col(first + lane);
-      for (Eigen::Index i = 0; i < before; ++i)
-        x[static_cast<std::size_t>(i)](lane) = 2 * column(0) - column(before - i);
-      for (Eigen::Index i = 0; i < n; ++i)
-        x[static_cast<std::size_t>(before + i)](lane) = column(i);
-      for (Eigen::Index i = 0; i < after; ++i)
-        x[static_cast<std::size_t>(before + n + i)](lane) = 2 * column(n - 1) - column(n - 2 - i);
-    }
+  std::vector<Pair> x(static_cast<std::size_t>(before + n + after));
+  const auto at = [&](Eigen::Index i) -> Pair& { return x[static_cast<std::size_t>(before + i)]; };
+  for (Eigen::Index first = 0; first < columns.cols(); first += 2) {
+    const Eigen::Index second = std::min(first + 1, columns.cols() - 1);  // the last may be alone
+    auto a = columns.col(first), b = columns.col(second);
+    for (Eigen::Index i = 0; i < n; ++i) at(i) = Pair{a(i), b(i)};
+    for (Eigen::Index i = 1; i <= before; ++i) at(-i) = 2.0 * at(0) - at(i);
+    for (Eigen::Index i = 1; i <= after; ++i) at(n - 1 + i) = 2.0 * at(n - 1) - at(n - 1 - i);
     pass(sections_, x.data(), x.size(), 1);
     pass(sections_, x.data() + x.size() - 1, x.size(), -1);
-    for (int lane = 0; lane < lanes; ++lane)
-      for (Eigen::Index i = 0; i < n; ++i)
-        columns(i, first + lane) = x[static_cast<std::size_t>(before + i)](lane);
+    for (Eigen::Index i = 0; i < n; ++i) a(i) = at(i)[0];
+    for (Eigen::Index i = 0; i < n; ++i) b(i) = at(i)[second - first];
   }
 }
 

@@ -34,11 +34,11 @@ class Decimation {
 
  private:
   void apply_to(const Eigen::Ref<const Eigen::MatrixXd>& columns,
-                std::span<const Eigen::Index> centres, Eigen::Index first, Eigen::Index last,
-                bool averaged, Eigen::MatrixXd& out) const;
+                const std::vector<Eigen::Index>& which, std::span<const Eigen::Index> centres,
+                Eigen::Index first, Eigen::Index last, bool averaged, Eigen::MatrixXd& out) const;
 
   int factor_, lobes_;
-  Eigen::VectorXd taps_, padded_taps_, padded_averaging_taps_;
+  Eigen::VectorXd taps_;
 };
 
 }  // namespace cablefit

@@ -202,6 +202,13 @@ Eigen::Index row_halo(const RowSettings& settings, double rate) {
   return std::max(needed, own.drop_edge);
 }
 
+Eigen::Index window_rows(const RowSettings& settings, Eigen::Index halo) {
+  constexpr Eigen::Index kHalos = 8, kMostTimes = 8;  // the latter bounds the memory
+  if (!settings.signal.quasi_static) return kWindowRows;
+  const Eigen::Index times = divided_up(kHalos * halo, kWindowRows);
+  return std::clamp<Eigen::Index>(times, 1, kMostTimes) * kWindowRows;
+}
+
 Eigen::Index expected_rows(std::span<const LogSurvey> logs, const PartFilter& wanted,
                            const RowSettings& settings) {
   Eigen::Index rows = 0;

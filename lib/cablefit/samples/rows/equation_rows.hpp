@@ -84,6 +84,10 @@ RowBatch make_rows(const Window& window, const LogSurvey& log, Eigen::Index numb
 /// Rows beside a window that its own rows depend on.
 Eigen::Index row_halo(const RowSettings& settings, double rate);
 
+/// Rows of a window with that halo: kWindowRows, or a multiple of it for slow signals, whose halo
+/// is long, so that little is filtered twice.
+Eigen::Index window_rows(const RowSettings& settings, Eigen::Index halo);
+
 /// Approximate number of rows per equation.
 Eigen::Index expected_rows(std::span<const LogSurvey> logs, const PartFilter& wanted,
                            const RowSettings& settings);

@@ -42,7 +42,8 @@ WindowCounts stream_rows(std::span<const LogSurvey> logs, const PartFilter& want
       const auto take = [&](Window&& window) { return emit(Item{k, offset, std::move(window)}); };
       const WindowCounts counts =
           keep ? for_chosen_windows(logs[k], wanted, halo, min_rows, bridge, keep, take)
-               : for_each_window(logs[k], wanted, halo, min_rows, bridge, take);
+               : for_each_window(logs[k], wanted, halo, min_rows, bridge, take,
+                                 window_rows(settings, halo));
       total.rows_read += counts.rows_read;
       total.rows_resampled += counts.rows_resampled;
       total.rows_too_short += counts.rows_too_short;

@@ -49,15 +49,17 @@ double approach_band(const PartSurvey& part, const LogPlan& plan, int joint) {
 class SegmentCutter {
  public:
   SegmentCutter(const LogPlan& plan, Eigen::Index halo, Eigen::Index min_rows,
-                const std::function<bool(Window&&)>& sink, WindowCounts& counts)
+                Eigen::Index window_rows, const std::function<bool(Window&&)>& sink,
+                WindowCounts& counts)
       : plan_(plan),
         halo_(halo),
+        rows_(window_rows),
         min_rows_(min_rows),
         sink_(sink),
         counts_(counts),
         n_slots_(static_cast<Eigen::Index>(plan.slots.size())),
         trackers_(static_cast<std::size_t>(plan.rig.n_joints())) {
-    buffer_.resize(kWindowRows + 2 * halo + 1, n_slots_ + plan.rig.n_joints());
+    buffer_.resize(rows_ + 2 * halo + 1, n_slots_ + plan.rig.n_joints());
   }
 
   void start(std::size_t part, const PartSurvey& survey, double t0, const Eigen::RowVectorXd& row) {
@@ -77,13 +79,13 @@ class SegmentCutter {
   /// Takes the next rows of the segment, n x slots; false when the sink wants no more.
   bool add(const Eigen::Ref<const Eigen::MatrixXd>& rows) {
     for (Eigen::Index from = 0; from < rows.rows();) {
-      const Eigen::Index full = begin_ + kWindowRows + halo_ + 1 - first_;
+      const Eigen::Index full = begin_ + rows_ + halo_ + 1 - first_;
       const Eigen::Index n = std::min(rows.rows() - from, full - filled_);
       buffer_.block(filled_, 0, n, n_slots_) = rows.middleRows(from, n);
       track_approach(n);
       filled_ += n;
       from += n;
-      if (filled_ == full && !emit(begin_ + kWindowRows, false)) return false;
+      if (filled_ == full && !emit(begin_ + rows_, false)) return false;
     }
     return true;
   }
@@ -113,8 +115,10 @@ class SegmentCutter {
       if (k < 0) {
         to.setZero();
       } else {
-        for (Eigen::Index i = 0; i < n; ++i)
-          to(i) = trackers_[joint].update(buffer_(filled_ + i, k));
+        ApproachTracker tracker = trackers_[joint];  // a copy stays in registers
+        const double* const theta = buffer_.col(k).data() + filled_;
+        for (Eigen::Index i = 0; i < n; ++i) to(i) = tracker.update(theta[i]);
+        trackers_[joint] = tracker;
       }
     }
   }
@@ -150,7 +154,7 @@ class SegmentCutter {
   }
 
   const LogPlan& plan_;
-  Eigen::Index halo_, min_rows_;
+  Eigen::Index halo_, rows_, min_rows_;
   const std::function<bool(Window&&)>& sink_;
   WindowCounts& counts_;
   Eigen::Index n_slots_;
@@ -232,8 +236,8 @@ double longest_step(const PartSurvey& part, double bridge) {
 class LogCutter {
  public:
   LogCutter(const LogSurvey& log, Eigen::Index halo, Eigen::Index min_rows, double bridge,
-            const std::function<bool(Window&&)>& sink)
-      : log_(log), bridge_(bridge), cutter_(log.plan, halo, min_rows, sink, counts_) {}
+            Eigen::Index window_rows, const std::function<bool(Window&&)>& sink)
+      : log_(log), bridge_(bridge), cutter_(log.plan, halo, min_rows, window_rows, sink, counts_) {}
 
   /// `rows` as SampleStore has them; false when the sink wants no more.
   bool add(const SamplePiece& piece, const Eigen::MatrixXd& rows) {
@@ -294,8 +298,8 @@ class LogCutter {
 WindowCounts for_each_window(const LogSurvey& log,
                              const std::function<bool(const PartSurvey&)>& wanted,
                              Eigen::Index halo, Eigen::Index min_rows, double bridge,
-                             const std::function<bool(Window&&)>& sink) {
-  LogCutter cutter(log, halo, min_rows, bridge, sink);
+                             const std::function<bool(Window&&)>& sink, Eigen::Index window_rows) {
+  LogCutter cutter(log, halo, min_rows, bridge, window_rows, sink);
   Eigen::MatrixXd rows;
   for (const SamplePiece& piece : log.samples->pieces()) {
     if (!wanted(log.parts[piece.part])) continue;

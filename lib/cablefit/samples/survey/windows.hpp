@@ -46,9 +46,11 @@ inline constexpr Eigen::Index kWindowRows = 8192;
 /// period of the cut-off. With an even clock holes of up to three rows are always interpolated. At
 /// most four rows are filled in for each row of the part. A longer hole starts a new segment.
 /// Segments shorter than `min_rows` are left out and counted. `sink` returns false to stop.
+/// `window_rows`: of every window but the last of its segment.
 WindowCounts for_each_window(const LogSurvey& log,
                              const std::function<bool(const PartSurvey&)>& wanted,
                              Eigen::Index halo, Eigen::Index min_rows, double bridge,
-                             const std::function<bool(Window&&)>& sink);
+                             const std::function<bool(Window&&)>& sink,
+                             Eigen::Index window_rows = kWindowRows);
 
 }  // namespace cablefit
