@@ -1,4 +1,6 @@
 // The first look at a log: clock, noise, quantum, phase and parts.
+#include <numbers>
+
 #include "tests/samples/rows_of_logs.hpp"
 #include "tests/support/message.hpp"
 
@@ -71,19 +73,56 @@ TEST_CASE("gaps are counted and do not stretch the period", "[samples]") {
   CHECK_THAT(part.period, Catch::WithinRel(1e-3, 1e-9));
 }
 
-// A compressed log comes in other pieces than a plain one, and has to give the same bits.
-TEST_CASE("noise does not depend on how many values come at a time", "[samples]") {
-  const Columns log = noisy_log(20000, 5210);
-  const Eigen::Map<const Eigen::ArrayXd> values(log.columns.at(1).second.data(), 20000);
+// An encoder that stands still and then moves by single counts: the differences of a value that is
+// no sum of few powers of two must not leave rounding, however many values come at a time.
+TEST_CASE("the noise of an encoder does not depend on how many values come at a time",
+          "[samples]") {
+  const double count = 2 * std::numbers::pi / (1 << 20);
+  Eigen::ArrayXd values(3000);
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    values(i) = 137.3 + count * static_cast<double>(i < 2000 ? 0 : (i - 2000) / 7);
   const auto noise = [&](Eigen::Index at_once) {
     ChannelScan scan;
     for (Eigen::Index i = 0; i < values.size(); i += at_once)
       scan.add(values.segment(i, std::min(at_once, values.size() - i)));
     return scan.result().noise;
   };
+  for (const Eigen::Index at_once : {1, 5, 64, 500, 1999}) CHECK(noise(at_once) == noise(3000));
+}
+
+// A compressed log comes in other pieces than a plain one, and has to give the same bits.
+TEST_CASE("a channel's figures do not depend on how many values come at a time", "[samples]") {
+  Columns log = noisy_log(20000, 5210);
+  std::vector<double>& values = log.columns.at(1).second;
+  std::fill(values.begin() + 5000, values.begin() + 8200, values[5000]);  // stands still
+  values[12345] += 0.7;
+  const auto scan_of = [&](Eigen::Index at_once) {
+    const Eigen::Map<const Eigen::ArrayXd> all(values.data(), 20000);
+    ChannelScan scan;
+    for (Eigen::Index i = 0; i < all.size(); i += at_once)
+      scan.add(all.segment(i, std::min(at_once, all.size() - i)));
+    return scan.result();
+  };
+  const ChannelSurvey whole = scan_of(20000);
+  CHECK(whole.max == *std::max_element(values.begin(), values.end()));
+  CHECK(whole.min == *std::min_element(values.begin(), values.end()));
+  CHECK(whole.lone.place == 12345);
+  CHECK(whole.lone.value == values[12345]);
+  CHECK_THAT(whole.lone.height, Catch::WithinAbs(0.7, 0.01));
+  double step = 1;
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (values[i] != values[i - 1]) step = std::min(step, std::abs(values[i] - values[i - 1]));
+  CHECK(whole.quantum == step);
   for (const Eigen::Index at_once : {1, 3, 7, 100, 777, 4096}) {
+    const ChannelSurvey some = scan_of(at_once);
     INFO(at_once << " at a time");
-    CHECK(noise(at_once) == noise(20000));
+    CHECK(some.noise == whole.noise);
+    CHECK(some.quantum == whole.quantum);
+    CHECK(some.min == whole.min);
+    CHECK(some.max == whole.max);
+    CHECK(some.at_limits == whole.at_limits);
+    CHECK(some.lone.height == whole.lone.height);
+    CHECK(some.lone.place == whole.lone.place);
   }
 }
 

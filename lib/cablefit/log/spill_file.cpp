@@ -69,15 +69,23 @@ SpillFile::~SpillFile() {
 
 void SpillFile::append(std::span<const double> values) {
   if (tail_.size() >= kTailSize) flush();
+  if (descriptor_ >= 0 && values.size() >= kLongRun) {
+    flush();
+    write(values);
+    return;
+  }
   tail_.insert(tail_.end(), values.begin(), values.end());
 }
 
 void SpillFile::flush() {
   if (descriptor_ < 0) descriptor_ = open_unlinked_file();
-  const std::span<const double> tail = tail_;
-  write_all(descriptor_, {reinterpret_cast<const char*>(tail.data()), tail.size_bytes()});
-  n_written_ += tail_.size();
+  write(tail_);
   tail_.clear();
+}
+
+void SpillFile::write(std::span<const double> values) {
+  write_all(descriptor_, {reinterpret_cast<const char*>(values.data()), values.size_bytes()});
+  n_written_ += values.size();
 }
 
 void SpillFile::read(std::size_t first, std::span<double> to) const {

@@ -30,7 +30,10 @@ class SpillFile {
  private:
   static constexpr std::size_t kTailSize = 1u << 17;  // small logs never reach the disk
 
+  static constexpr std::size_t kLongRun = 1u << 12;  // a write costs less than copying it first
+
   void flush();
+  void write(std::span<const double> values);
 
   int descriptor_ = -1;  // opened by the first flush()
   std::size_t n_written_ = 0;

@@ -3,7 +3,10 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <limits>
+
+#include "cablefit/base/lanes.hpp"
 
 namespace cablefit {
 
@@ -13,8 +16,21 @@ struct ChannelSurvey {
   double quantum = 0;    ///< smallest step between neighbours; 0 for a constant
   double noise = 0;      ///< sd of white noise, from sixth differences (they remove smooth motion)
   double at_limits = 0;  ///< share of rows exactly at min or max; a large share means saturation
+  /// The sample that lies furthest beyond both of its neighbours, on the same side: how far, its
+  /// value, and its place among the part's rows. 0 without one. Across a gap in time there are no
+  /// neighbours.
+  struct LoneSample {
+    double height = 0, value = 0;
+    std::size_t place = 0;
+  } lone;
   double range() const { return max - min; }
 };
+
+struct ValueRange {
+  double low, high;
+};
+/// Of n > 0 values, infinities among them; NaN counts for nothing.
+ValueRange value_range(const double* x, Eigen::Index n);
 
 /// Sixth differences remove any motion that a fifth-order polynomial describes over seven samples.
 /// For white noise their variance is C(12,6) = 924 times that of the noise.
@@ -28,16 +44,18 @@ class ChannelScan {
   ChannelSurvey result() const;
 
  private:
-  void look_at_limits(const Values& x);
+  void look_at_limits(const Values& x, double low, double high);
   void look_at_differences(const Values& x);
-  /// Steps to the values [begin, end) of recent_, each from the one before.
-  void look_at_steps(Eigen::Index begin, Eigen::Index end);
+  /// Of values that are all alike, those before them as well: all differences are 0.
+  void skip_differences(double value, Eigen::Index n_values);
+  /// Among the first n values of recent_.
+  void look_for_lone_sample(Eigen::Index n);
   /// The first n that recent_ gives.
   void add_sixth_differences(Eigen::Index n);
 
   double min_ = std::numeric_limits<double>::infinity(), max_ = -min_, quantum_ = min_;
-  static constexpr Eigen::Index kSums = 4;
-  std::array<double, kSums> sums_d6_{};
+  std::array<double, kLanes> sums_d6_{};
+  ChannelSurvey::LoneSample lone_;
   Eigen::Index n_ = 0, n_d6_ = 0, at_min_ = 0, at_max_ = 0;
   Eigen::ArrayXd recent_;     // the last values known, then those being added
   Eigen::Index n_known_ = 0;  // values at the front of recent_ that differences may reach back to

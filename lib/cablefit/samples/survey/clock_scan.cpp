@@ -27,6 +27,15 @@ Error clock_error(double t, double step, const Place& place) {
 
 double gap_factor(bool uneven) { return uneven ? kGapUneven : kGapEven; }
 
+void StepSums::add(const StepSums& others) {
+  if (others.n == 0) return;
+  low = n == 0 ? others.low : std::min(low, others.low);
+  high = std::max(high, others.high);
+  sum += others.sum;
+  squares += others.squares;
+  n += others.n;
+}
+
 void StepSums::add(double step) {
   if (step > longest) {
     ++n_gaps;
@@ -58,20 +67,18 @@ bool ClockScan::add(double t, bool continues, const std::string& path, std::uint
 
 std::size_t ClockScan::add_usual(std::span<const double> t) {
   if (median_ == 0) return 0;
-  StepSums even = even_, uneven = uneven_;  // copies stay in registers
+  StepSums even = even_;  // a copy stays in registers
   const double off = kUnevenJitter * median_;
   std::size_t n = 0, n_off = 0;
   double last = last_;
   for (; n < t.size(); ++n) {
     const double step = t[n] - last;
-    if (!(step > 0 && step <= even.longest)) break;
+    if (!(step > 0 && step <= even_.longest)) break;
     even.add(step);
-    uneven.add(step);
     n_off += std::abs(step - median_) > off;
     last = t[n];
   }
   even_ = even;
-  uneven_ = uneven;
   last_ = last;
   n_off_ += n_off;
   n_steps_ += n;
@@ -83,7 +90,11 @@ ClockSurvey ClockScan::result() {
   if (n_steps_ < early_.size()) calibrate();
   ClockSurvey survey;
   survey.uneven = static_cast<double>(n_off_) > kUnevenShare * static_cast<double>(n_steps_);
-  const StepSums& steps = survey.uneven ? uneven_ : even_;
+  StepSums steps = even_;
+  if (survey.uneven) {
+    steps.add(longer_);
+    steps.n_gaps = longer_.n_gaps;
+  }
   const double n = static_cast<double>(std::max<std::size_t>(1, steps.n));
   survey.n_rows = n_rows_;
   survey.t_first = first_;
@@ -115,13 +126,13 @@ void ClockScan::calibrate() {
   std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<long>(n_steps_));
   median_ = *middle;
   even_.longest = kGapEven * median_;
-  uneven_.longest = kGapUneven * median_;
+  longer_.longest = kGapUneven * median_;
   for (std::size_t k = 0; k < n_steps_; ++k) count(early_[k]);
 }
 
 void ClockScan::count(double step) {
   even_.add(step);
-  uneven_.add(step);
+  if (step > even_.longest) longer_.add(step);
   n_off_ += std::abs(step - median_) > kUnevenJitter * median_;
 }
 

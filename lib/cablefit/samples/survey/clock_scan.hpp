@@ -28,10 +28,12 @@ struct StepSums {
   double longest = 0, sum = 0, squares = 0, low = 0, high = 0;
   std::size_t n = 0, n_gaps = 0;
   void add(double step);
+  void add(const StepSums& others);  ///< but for their gaps
 };
 
 /// Whether a step is a gap depends on whether the clock is even. That is known only at the end, so
-/// both counts are kept. The scale is the median of the first steps.
+/// both counts are kept. The scale is the
+/// median of the first steps.
 class ClockScan {
  public:
   /// Whether the time jumped since the last row: differences must not be taken across a jump.
@@ -49,7 +51,8 @@ class ClockScan {
   void count(double step);
 
   std::array<double, 64> early_{};
-  StepSums even_, uneven_;
+  StepSums even_;    // longer steps are gaps
+  StepSums longer_;  // those that are gaps of an even clock
   double first_ = 0, last_ = 0, last_step_ = 0, median_ = 0;
   std::size_t n_rows_ = 0, n_steps_ = 0, n_off_ = 0;
 };

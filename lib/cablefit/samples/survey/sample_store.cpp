@@ -1,9 +1,8 @@
 #include "cablefit/samples/survey/sample_store.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
+#include <cstring>
 #include <limits>
 
 namespace cablefit {
@@ -30,16 +29,13 @@ double entry(const Head& head, Eigen::Index k) {
 bool is_written(const Head& head, Eigen::Index k) { return std::isnan(entry(head, k)); }
 
 /// Row i at (first + i)/rate: the nearest number to what a log prints that counts its rows.
-Eigen::ArrayXd times(double rate, double first, Eigen::Index n) {
-  Eigen::ArrayXd t(n);
-  for (int i = 0; i < static_cast<int>(n); ++i) t(i) = (first + i) / rate;
-  return t;
+void fill_times(double rate, double first, Eigen::Ref<Eigen::VectorXd> t) {
+  const auto n = static_cast<int>(t.size());
+  for (int i = 0; i < n; ++i) t(i) = (first + i) / rate;
 }
 
-bool are_same(const Column& a, const Column& b) {
-  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };  // 0 is not -0
-  return std::equal(a.data(), a.data() + a.size(), b.data(), b.data() + b.size(),
-                    [bits](double x, double y) { return bits(x) == bits(y); });
+bool are_same(const Column& a, const Column& b) {  // by their bits: 0 is not -0
+  return std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
 }
 
 void look_at_clock(const Column& t, Head& head) {
@@ -48,7 +44,9 @@ void look_at_clock(const Column& t, Head& head) {
   const double rate = std::round(static_cast<double>(n - 1) / (t(n - 1) - t(0)));
   const double first = std::round(t(0) * rate);
   if (!(rate > 0) || first / rate != t(0)) return;
-  if (are_same(times(rate, first, n).matrix(), t)) head[0] = rate, head[1] = first;
+  Eigen::VectorXd even(n);
+  fill_times(rate, first, even);
+  if (are_same(even, t)) head[0] = rate, head[1] = first;
 }
 
 Head head_of(const Eigen::Ref<const Eigen::MatrixXd>& rows) {
@@ -82,13 +80,15 @@ void SampleStore::read(const SamplePiece& piece, Eigen::MatrixXd& rows,
   values_.read(piece.place, head);
   std::size_t place = piece.place + head.size();
   for (Eigen::Index k = 0; k < n_columns_; ++k) {
+    const bool is_wanted = wanted.empty() || wanted[static_cast<std::size_t>(k)];
+    const auto n = static_cast<std::size_t>(piece.n_rows);
     if (is_written(head, k)) {
-      const auto n = static_cast<std::size_t>(piece.n_rows);
-      if (wanted.empty() || wanted[static_cast<std::size_t>(k)])
-        values_.read(place, {rows.col(k).data(), n});
+      if (is_wanted) values_.read(place, {rows.col(k).data(), n});
       place += n;
+    } else if (!is_wanted) {
+      continue;
     } else if (k == 0) {
-      rows.col(0) = times(head[0], head[1], piece.n_rows);
+      fill_times(head[0], head[1], rows.col(0));
     } else {
       rows.col(k).setConstant(entry(head, k));
     }

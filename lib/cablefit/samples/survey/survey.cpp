@@ -151,10 +151,10 @@ class LogScan {
   }
 
   void require_physical(const Slot& slot, Eigen::Index k, const LogChunk& chunk) const {
-    const auto values = rows_.col(k).array().abs();
-    if (values.maxCoeff() < kAbsurd) return;
-    for (Eigen::Index i = 0; i < values.size(); ++i)
-      if (!(values(i) < kAbsurd))
+    const ValueRange range = value_range(rows_.col(k).data(), rows_.rows());
+    if (-kAbsurd < range.low && range.high < kAbsurd) return;
+    for (Eigen::Index i = 0; i < rows_.rows(); ++i)
+      if (!(std::abs(rows_(i, k)) < kAbsurd))
         throw absurd_value(plan_, slot, rows_(i, k), chunk.lines[static_cast<std::size_t>(i)]);
   }
 

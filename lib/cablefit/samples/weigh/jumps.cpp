@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 
-#include "cablefit/samples/weigh/channel_pass.hpp"
 #include "cablefit/samples/weigh/checks.hpp"
 
 namespace cablefit::weighing {
@@ -123,6 +122,26 @@ bool is_position(const Slot& slot) {
   return !slot.integrated && (slot.channel == Channel::q || slot.channel == Channel::theta);
 }
 
+/// One pass over the positions of a log, by part and slot.
+void over_positions(const LogSurvey& log, std::vector<std::vector<Steps>>& steps) {
+  std::vector<bool> columns{true};  // the first is the time
+  for (const Slot& slot : log.plan.slots) columns.push_back(is_position(slot));
+  Eigen::MatrixXd rows;
+  std::size_t row = 0;
+  for (const SamplePiece& piece : log.samples->pieces()) {
+    log.samples->read(piece, rows, columns);
+    for (std::size_t k = 0; k < log.plan.slots.size(); ++k) {
+      const bool moves = log.parts[piece.part].channels[k].range() > 0;
+      if (!columns[k + 1] || !moves) continue;
+      Steps& own = steps[piece.part][k];
+      if (!piece.follows) own.begin();
+      const auto column = static_cast<Eigen::Index>(k) + 1;
+      own.add({rows.data(), rows.rows()}, {rows.col(column).data(), rows.rows()}, row);
+    }
+    row += static_cast<std::size_t>(piece.n_rows);
+  }
+}
+
 std::optional<Finding> jump_finding(const LogSurvey& log, std::size_t part, std::size_t slot,
                                     const Jump& jump) {
   const PartSurvey& survey = log.parts[part];
@@ -156,7 +175,7 @@ Findings jumps(const Logs& logs) {
     std::vector<std::vector<Steps>> steps;
     for (const PartSurvey& part : log.parts)
       steps.emplace_back(log.plan.slots.size(), Steps(part.n_rows, part.period));
-    over_channels(log, is_position, steps);
+    over_positions(log, steps);
     for (std::size_t p = 0; p < log.parts.size(); ++p)
       for (std::size_t k = 0; k < log.plan.slots.size(); ++k)
         if (is_position(log.plan.slots[k]))
