@@ -66,6 +66,8 @@ ModeMap mode_map(const Transmission& transmission, int joint, const Eigen::Vecto
 struct PreloadTorques {
   Eigen::VectorXd link, motor;
 };
+/// N m; a smaller sum of cable torques is rounding, which differs between machines.
+inline constexpr double kEquilibriumMet = 1e-9;
 PreloadTorques preload_torques(const Transmission& transmission);
 
 }  // namespace cablefit

@@ -168,7 +168,9 @@ std::string numbers_text(const Eigen::VectorXd& numbers) {
 
 /// (8c): what the preload alone does in the reference pose.
 std::string balance_text(const ElasticPreload& preload, const ElasticFit& fit) {
-  const PreloadTorques alone = preload_torques(fit.transmission);
+  PreloadTorques alone = preload_torques(fit.transmission);
+  for (Eigen::VectorXd* torques : {&alone.link, &alone.motor})
+    *torques = (torques->array().abs() < kEquilibriumMet).select(0, *torques);
   return fmt::format(
       "{}, {}: in the reference pose the preload alone gives {} {} on the link and "
       "{} on the motor; 0 in equilibrium (8c)",

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cablefit/base/axes.hpp"
+#include "cablefit/model/modes.hpp"
 #include "cablefit/report/parts/document_parts.hpp"
 #include "cablefit/report/parts/estimate_cells.hpp"
 #include "cablefit/report/parts/numbers.hpp"
@@ -13,8 +14,7 @@
 namespace cablefit {
 namespace {
 
-constexpr double kEquilibriumMet = 1e-9;  // N m
-constexpr double kAsSd = 0.1;             // sd: an interval that ends there is that of the sd
+constexpr double kAsSd = 0.1;  // sd: an interval that ends there is that of the sd
 
 std::string label(const Estimate& e) {
   const bool same = e.name == e.symbol || e.name.starts_with(e.symbol + "[");
@@ -130,7 +130,6 @@ Table elongation_table(const IdentifyResult& result) {
   table.notes = notes.lines();
   double most = 0;
   for (const IdentifyPreload& preload : result.preloads) most = std::max(most, preload.equilibrium);
-  // Rounding differs between machines, so a satisfied condition is printed without its digits.
   table.notes.push_back(fmt::format(
       "in the reference pose the preload alone gives {} {} on link and motor: "
       "equilibrium (8c), imposed",
