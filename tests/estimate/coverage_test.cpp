@@ -208,7 +208,8 @@ TEST_CASE("long-run variance of residuals, regressors that are there for a while
   }
 }
 
-// Coefficients in N/m^3 and N m side by side: a variance has the square of its unit, nothing else.
+// Coefficients in N/m^3 and in N m are fitted together. In other units a variance changes by the
+// square of the factor.
 TEST_CASE("long-run variance does not depend on the units", "[estimate]") {
   const Eigen::Index n = 900;
   const Eigen::Vector4d unit(1e10, 1e4, 1, 1e-7);

@@ -88,8 +88,8 @@ TEST_CASE("accumulators of windows add up to one", "[estimate]") {
   CHECK((direct - cell.gram).norm() < 1e-13 * direct.norm());
 }
 
-// Their Gram matrices come from rows that were made nearly orthogonal; a column that the others
-// explain, or that is zero, must not spoil them.
+// Gram matrices of cells are formed from nearly orthogonal rows. They must be exact also where a
+// column depends on others, or is zero.
 TEST_CASE("long cells have the Gram matrices of their rows", "[estimate]") {
   Eigen::MatrixXd rows = random_rows(30000, 7, 6003);
   rows.col(3) = 2 * rows.col(0) - 0.01 * rows.col(2);

@@ -1,4 +1,4 @@
-// Numbers come back as they were appended, whichever of them are in the file.
+// A spill file returns the numbers as they were appended, from memory or from the file.
 #include "cablefit/log/spill_file.hpp"
 
 #include <algorithm>

@@ -142,7 +142,7 @@ TEST_CASE("averaged columns have weights (1, 10, 1)/12 on top of the taps", "[sa
              decimation.apply(averaged, middle, 0, n, {})));
 }
 
-// Rows in a run are weighed together; what a row becomes must not show where runs begin and end.
+// Rows of a run are computed together. The result must not depend on where runs begin and end.
 TEST_CASE("rows of a run are those of each row alone", "[samples]") {
   const Eigen::Index n = 1200;
   Eigen::MatrixXd columns(n, 3);
@@ -160,7 +160,7 @@ TEST_CASE("rows of a run are those of each row alone", "[samples]") {
           decimation.apply(columns, std::span(&centres[k], 1), 0, n, averaged);
       const Eigen::RowVectorXd row = all.row(static_cast<Eigen::Index>(k));
       CHECK(row(0) == one(0, 0));
-      // A stretch that is constant is taken as it is.
+      // A constant stretch is copied, without rounding.
       CHECK_THAT(row(1), Catch::WithinAbs(one(0, 1), 1e-14));
       CHECK_THAT(row(2), Catch::WithinAbs(0.25, 1e-15));
     }

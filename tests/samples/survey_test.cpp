@@ -73,8 +73,8 @@ TEST_CASE("gaps are counted and do not stretch the period", "[samples]") {
   CHECK_THAT(part.period, Catch::WithinRel(1e-3, 1e-9));
 }
 
-// An encoder that stands still and then moves by single counts: the differences of a value that is
-// no sum of few powers of two must not leave rounding, however many values come at a time.
+// An encoder stands still, then moves by single counts. Its value, 137.3, is not exact in binary:
+// differences of equal values must be exactly 0.
 TEST_CASE("the noise of an encoder does not depend on how many values come at a time",
           "[samples]") {
   const double count = 2 * std::numbers::pi / (1 << 20);

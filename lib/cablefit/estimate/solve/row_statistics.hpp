@@ -23,7 +23,7 @@ class StreamingQr {
   void add(const Rows& rows);
   /// `scale`: factor of the other's rows.
   void add(const StreamingQr& other, double scale = 1);
-  /// Rows of which `r` is the triangular factor.
+  /// Adds rows of which the triangular factor is known, n_columns columns.
   void absorb(const Eigen::MatrixXd& r);
   const Eigen::MatrixXd& r() const { return r_; }
 

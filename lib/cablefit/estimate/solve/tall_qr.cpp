@@ -17,8 +17,11 @@ using TallRows = Eigen::Ref<const Eigen::MatrixXd>;
 // Householder is as quick.
 constexpr Eigen::Index kMostStep = 16, kLeastStep = 3;
 constexpr Eigen::Index kRowsPerColumn = 8;  // in the sample; fewer rows do not stand for the rest
-constexpr Eigen::Index kLongStretch = 8;    // rows per column, on average: R0'GR0 costs less then
-constexpr double kFaint = 1e-3;  // share of a column's mean square: R0'GR0 would round it away
+// Rows per column of a stretch, on average. For fewer, its plain Gram matrix costs less than
+// R0'GR0.
+constexpr Eigen::Index kLongStretch = 8;
+// Where a stretch has less than this share of a column's mean square, R0'GR0 is not exact enough.
+constexpr double kFaint = 1e-3;
 // Rows that stay near the processor; not a power of two, or all columns would fall on the same
 // few lines of the first-level cache.
 constexpr Eigen::Index kBlock = 248;
@@ -94,7 +97,7 @@ Eigen::MatrixXd orthogonal_gram(const TallRows& rows, const Eigen::MatrixXd& r0)
   return gram;
 }
 
-/// The upper triangle is the whole.
+/// Copies the upper triangle to the lower one.
 void make_symmetric(Eigen::MatrixXd& gram) {
   gram.triangularView<Eigen::StrictlyLower>() = gram.transpose();
 }
@@ -106,7 +109,7 @@ Eigen::MatrixXd plain_gram(const TallRows& rows) {
   return gram;
 }
 
-/// `gram` of rows r0^-1 to that of the rows, as exact as the rows themselves give it.
+/// The Gram matrix of the rows from `gram`, that of rows r0^-1, where this is exact enough.
 Eigen::MatrixXd restored_gram(const Eigen::MatrixXd& gram, const Preconditioner& p,
                               const TallRows& rows) {
   Eigen::MatrixXd restored = p.r0.transpose() * gram.selfadjointView<Eigen::Upper>() * p.r0;
@@ -122,7 +125,7 @@ TallRows stretch(const TallRows& rows, std::span<const Eigen::Index> ends, std::
   return rows.middleRows(begin, ends[k] - begin);
 }
 
-/// null: not for these rows.
+/// Null where Householder is better: the rows are few, or the sample is not like them.
 std::optional<TallQr> cholesky_qr(const TallRows& rows, std::span<const Eigen::Index> ends,
                                   bool with_grams) {
   const Eigen::Index n = rows.cols();

@@ -201,7 +201,7 @@ Eigen::MatrixXd kernel_sum(const Eigen::MatrixXd& v, double bandwidth) {
 
 /// r with r r' = a, for a symmetric a without negative eigenvalues. It is first scaled to ones on
 /// its diagonal: variances in (N/m^3)^2 and (N m)^2 side by side differ by 10^20, and small
-/// eigenvalues would drown in the rounding of the large ones.
+/// eigenvalues would be smaller than the rounding of the large ones.
 Eigen::MatrixXd root_of(const Eigen::MatrixXd& a) {
   const Eigen::VectorXd scale =
       a.diagonal().unaryExpr([](double x) { return x > 0 ? std::sqrt(x) : 1.0; });

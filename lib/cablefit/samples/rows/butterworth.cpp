@@ -13,9 +13,8 @@ namespace {
 
 using std::numbers::pi;
 
-/// One section of two columns side by side. Of the transposed direct form II the state is advanced
-/// from the state, not from the output: a value then waits for two operations of the one before it
-/// instead of four.
+/// One section (transposed direct form II) of two columns. The next state is computed from the
+/// state, not from the output: that needs two operations one after the other instead of four.
 class Section {
  public:
   Section() = default;

@@ -101,7 +101,7 @@ struct TapPair {
 using Sums = std::array<double, kBlock>;
 static_assert(kBlock == 4 * kLanes);
 
-/// kBlock rows of the result; what their taps weigh lies side by side from `x` on.
+/// kBlock rows of the result. The values that one tap weighs are neighbours in memory, from `x` on.
 void weigh(const double* x, const TapPair& middle, const std::vector<TapPair>& pairs, Sums& sums) {
   const double* const mid = x + middle.before;
   Lanes s0 = scaled(load(mid), middle.tap), s1 = scaled(load(mid + 4), middle.tap);
@@ -146,8 +146,8 @@ const auto kWeigh = __builtin_cpu_supports("avx2") ? weigh_wide : weigh;
 const auto kWeigh = weigh;
 #endif
 
-/// The values of a run sorted by phase, those of one phase side by side: what a tap weighs for
-/// neighbouring rows of the result is then side by side as well.
+/// The values of a run, sorted by phase. The values that one tap weighs for a block of rows are
+/// then neighbours in memory.
 class Phases {
  public:
   Phases(Eigen::Index factor, const Eigen::VectorXd& taps, Eigen::Index longest)
@@ -166,14 +166,14 @@ class Phases {
     const Eigen::Index beside = averaged ? 1 : 0;
     const Eigen::Index n_values = (n + reach_ - 1) * factor_ + 1;
     if (is_constant(x - beside, n_values + 2 * beside)) {
-      std::fill_n(to, n, *x);  // an offset, or a link that is blocked; a sum would round
+      std::fill_n(to, n, *x);  // an offset, or a blocked link; a sum would add rounding
       return;
     }
     const Eigen::Index n_all = divided_up(n, kBlock) * kBlock + reach_;
     for (Eigen::Index phase = 0; phase < factor_; ++phase) {
       const Eigen::Index n_places = n + reach_ - (phase == 0 ? 0 : 1);
       pick(x + phase, factor_, n_places, averaged, values_.col(phase).data());
-      // Of rows beyond the last one, up to the end of a block.
+      // The last block has places beyond the last row.
       values_.col(phase).segment(n_places, n_all - n_places).setZero();
     }
     for (Eigen::Index i = 0; i < n; i += kBlock) {

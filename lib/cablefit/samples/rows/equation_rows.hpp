@@ -84,8 +84,8 @@ RowBatch make_rows(const Window& window, const LogSurvey& log, Eigen::Index numb
 /// Rows beside a window that its own rows depend on.
 Eigen::Index row_halo(const RowSettings& settings, double rate);
 
-/// Rows of a window with that halo: kWindowRows, or a multiple of it for slow signals, whose halo
-/// is long, so that little is filtered twice.
+/// Samples of a window with this halo: kWindowRows. For quasi-static signals a multiple of it:
+/// their halo is long, and every window filters its halo again.
 Eigen::Index window_rows(const RowSettings& settings, Eigen::Index halo);
 
 /// Approximate number of rows per equation.

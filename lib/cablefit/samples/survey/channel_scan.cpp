@@ -73,7 +73,7 @@ ValueRange value_range(const double* x, Eigen::Index n) {
   for (; i < n; ++i) range = {std::min(range.low, x[i]), std::max(range.high, x[i])};
   range.low = std::min(range.low, least_of(least(low, low2)));
   range.high = std::max(range.high, -least_of(scaled(greatest(high, high2), -1)));
-  return {range.low + 0.0, range.high + 0.0};  // no -0: it would go by the order of the zeros
+  return {range.low + 0.0, range.high + 0.0};  // never -0, which would depend on the order
 }
 
 void ChannelScan::add(const Values& x) {
@@ -137,10 +137,9 @@ void ChannelScan::add_sixth_differences(Eigen::Index n) {
   const auto add = [&](Eigen::Index i) {
     sums_d6_[static_cast<std::size_t>(n_d6_++ % kLanes)] += square(i);
   };
-  // From the middle value, so that a channel that stands still gives 0 and no rounding, as
-  // skip_differences() does. Four sums side by side. Which one a difference goes to depends on its
-  // number in the part: how many values come at a time is as the reader of a file has them, and
-  // must not show in the rounding.
+  // Relative to the middle value, so that a constant channel gives exactly 0, as in
+  // skip_differences(). There are four sums; the number of a difference in the part selects one.
+  // The rounding then does not depend on how many values the reader of a file delivers at a time.
   Eigen::Index i = 0;
   for (; i < n && n_d6_ % kLanes != 0; ++i) add(i);
   Lanes sums = load(sums_d6_.data());

@@ -16,9 +16,9 @@ struct ChannelSurvey {
   double quantum = 0;    ///< smallest step between neighbours; 0 for a constant
   double noise = 0;      ///< sd of white noise, from sixth differences (they remove smooth motion)
   double at_limits = 0;  ///< share of rows exactly at min or max; a large share means saturation
-  /// The sample that lies furthest beyond both of its neighbours, on the same side: how far, its
-  /// value, and its place among the part's rows. 0 without one. Across a gap in time there are no
-  /// neighbours.
+  /// The sample that differs most from both of its neighbours, in the same direction. `height`:
+  /// from the nearer one, in the channel's SI unit, 0 when there is no such sample. `place`: its
+  /// number among the samples of the part. Samples across a gap in time are not neighbours.
   struct LoneSample {
     double height = 0, value = 0;
     std::size_t place = 0;
@@ -29,7 +29,8 @@ struct ChannelSurvey {
 struct ValueRange {
   double low, high;
 };
-/// Of n > 0 values, infinities among them; NaN counts for nothing.
+/// Smallest and largest of n > 0 values. Infinities count; NaN does not,
+/// unless it is the first value: then both are NaN.
 ValueRange value_range(const double* x, Eigen::Index n);
 
 /// Sixth differences remove any motion that a fifth-order polynomial describes over seven samples.
@@ -46,7 +47,7 @@ class ChannelScan {
  private:
   void look_at_limits(const Values& x, double low, double high);
   void look_at_differences(const Values& x);
-  /// Of values that are all alike, those before them as well: all differences are 0.
+  /// For values that are all equal, and equal to the known ones: all differences are 0.
   void skip_differences(double value, Eigen::Index n_values);
   /// Among the first n values of recent_.
   void look_for_lone_sample(Eigen::Index n);

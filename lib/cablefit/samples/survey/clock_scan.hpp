@@ -28,7 +28,7 @@ struct StepSums {
   double longest = 0, sum = 0, squares = 0, low = 0, high = 0;
   std::size_t n = 0, n_gaps = 0;
   void add(double step);
-  void add(const StepSums& others);  ///< but for their gaps
+  void add(const StepSums& others);  ///< all but the count of gaps
 };
 
 /// Whether a step is a gap depends on whether the clock is even. That is known only at the end, so
