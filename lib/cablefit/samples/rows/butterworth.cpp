@@ -21,10 +21,13 @@ class Section {
   /// In the steady state of a constant input `x`. All sections have DC gain 1, so the first value
   /// is every section's steady input.
   Section(const Biquad& c, Pair x)
-      : b0_(c.b0), b1_(c.b1 - c.a1 * c.b0), b2_(c.b2 - c.a2 * c.b0), a1_(c.a1), a2_(c.a2) {
-    s2_ = (c.b2 - c.a2) * x;
-    s1_ = (c.b1 - c.a1) * x + s2_;
-  }
+      : b0_(c.b0),
+        b1_(c.b1 - c.a1 * c.b0),
+        b2_(c.b2 - c.a2 * c.b0),
+        a1_(c.a1),
+        a2_(c.a2),
+        s2_((c.b2 - c.a2) * x),
+        s1_((c.b1 - c.a1) * x + s2_) {}
   Pair advance(Pair x) {
     const Pair y = b0_ * x + s1_;
     const Pair next = (b1_ * x + s2_) - a1_ * s1_;
@@ -35,7 +38,7 @@ class Section {
 
  private:
   double b0_ = 0, b1_ = 0, b2_ = 0, a1_ = 0, a2_ = 0;
-  Pair s1_{}, s2_{};
+  Pair s2_{}, s1_{};
 };
 
 /// N sections in a row over n values from `x` on, `step` (1 or -1) apart. N is known to the
