@@ -144,24 +144,4 @@ TEST_CASE("a refinement that cannot be") {
             .find("'cable_damping' on a rigid drive") != std::string::npos);
 }
 
-TEST_CASE("the model schema has every refinement") {
-  const JsonNode root = read_json_file(std::string(CABLEFIT_DATA) + "/schema/model.schema.json");
-  const JsonNode& keys = root.at("properties")
-                             .at("joints")
-                             .at("items")
-                             .at("properties")
-                             .at("refinements")
-                             .at("items")
-                             .at("properties");
-  std::set<std::string> names, sides, expected_names, expected_sides;
-  for (const std::string& name : keys.at("name").at("enum").texts()) names.insert(name);
-  for (const std::string& side : keys.at("side").at("enum").texts()) sides.insert(side);
-  for (const Effect& row : candidate_effects()) {
-    expected_names.insert(std::string(row.name));
-    expected_sides.insert(std::string(to_string(row.site)));
-  }
-  CHECK(names == expected_names);
-  CHECK(sides == expected_sides);
-}
-
 }  // namespace

@@ -26,6 +26,11 @@ Names properties(const JsonNode& schema_node) {
   return names;
 }
 
+Names texts(const JsonNode& list) {
+  const std::vector<std::string> all = list.texts();
+  return {all.begin(), all.end()};
+}
+
 /// The names behind "known: " in the message about an unknown one.
 Names known_names(const std::string& message) {
   const auto start = message.find("known: ");
@@ -78,9 +83,8 @@ TEST_CASE("the rig schema has every load law and cable law") {
   }
   CHECK(loads == known_to_rig_reader(R"({"load": {"type": "?"}})"));
   const JsonNode& cable = root.at("properties").at("cables").at("items").at("properties");
-  for (const std::string& name : cable.at("law").at("enum").texts()) laws.insert(name);
-  CHECK(laws.size() == cable_laws().size());
-  for (const CableLaw& law : cable_laws()) CHECK(laws.count(std::string(law.name)) == 1);
+  for (const CableLaw& law : cable_laws()) laws.insert(std::string(law.name));
+  CHECK(texts(cable.at("law").at("enum")) == laws);
 }
 
 TEST_CASE("the rig schema has every arm") {
@@ -124,20 +128,43 @@ TEST_CASE("the rig schema has every map of two joints") {
   CHECK(maps == known_to_rig_reader(start + R"(?"}}]})"));
 }
 
-TEST_CASE("the model schema has every effect with its parameters") {
-  const JsonNode root = schema("model");
-  const JsonNode& joint = root.at("properties").at("joints").at("items").at("properties");
+Names parameters_of(const Effect& row) {
+  Names names;
+  for (const ParameterInfo& info : row.parameters) names.insert(std::string(info.name));
+  return names;
+}
+
+TEST_CASE("the effects schema has the base model with its parameters") {
+  const JsonNode root = schema("effects");
   for (const Side side : {Side::link, Side::motor, Side::rigid}) {
-    const JsonNode& side_node = joint.at(to_string(side));
+    const JsonNode& side_node = root.at("$defs").at(to_string(side));
     Names names;
     for (const Effect& effect : base_effects(side)) {
       names.insert(std::string(effect.name));
-      Names parameters;
-      for (const ParameterInfo& info : effect.parameters) parameters.insert(std::string(info.name));
-      CHECK(properties(side_node.at("properties").at(effect.name)) == parameters);
+      CHECK(properties(side_node.at("properties").at(effect.name)) == parameters_of(effect));
     }
     CHECK(properties(side_node) == names);
   }
+}
+
+TEST_CASE("the effects schema has every row of the catalogue with its parameters") {
+  const JsonNode root = schema("effects");
+  const JsonNode& refinement = root.at("$defs").at("refinement");
+  const std::vector<JsonNode>& options = refinement.at("oneOf").items;
+  REQUIRE(options.size() == candidate_effects().size());
+  Names names, sides;
+  for (std::size_t k = 0; k < options.size(); ++k) {
+    const Effect& row = candidate_effects()[k];
+    const JsonNode& keys = options[k].at("properties");
+    names.insert(std::string(row.name));
+    sides.insert(std::string(to_string(row.site)));
+    CHECK(keys.at("name").at("const").text() == row.name);
+    CHECK(keys.at("side").at("const").text() == to_string(row.site));
+    CHECK(properties(keys.at("parameters")) == parameters_of(row));
+  }
+  const JsonNode& keys = refinement.at("properties");
+  CHECK(texts(keys.at("name").at("enum")) == names);
+  CHECK(texts(keys.at("side").at("enum")) == sides);
 }
 
 TEST_CASE("the model schema has the reader's keys") {
