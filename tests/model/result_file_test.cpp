@@ -1,4 +1,6 @@
 // A result of `cablefit dynamic` as a model.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 
 #include "cablefit/base/error.hpp"
@@ -48,7 +50,7 @@ std::string preload(const std::string& name, const std::string& fits,
   return R"({"name": ")" + name + R"(", "rig": )" + rig + R"(, "fits": [)" + fits + "]}";
 }
 
-std::string both() { return std::string(kLinearFit) + "," + kPolyFit; }
+std::string both() { return fmt::format("{},{}", kLinearFit, kPolyFit); }
 
 Model read(const std::string& text, const std::string& wanted_preload,
            const std::string& wanted_model, std::string* choice = nullptr) {

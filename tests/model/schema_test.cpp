@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/model.hpp"
@@ -151,10 +152,13 @@ TEST_CASE("the effects schema has every row of the catalogue with its parameters
   const JsonNode root = schema("effects");
   const JsonNode& refinement = root.at("$defs").at("refinement");
   const std::vector<JsonNode>& options = refinement.at("oneOf").items;
-  REQUIRE(options.size() == candidate_effects().size());
+  // Without the row that another test adds: it names no source.
+  std::vector<Effect> rows(candidate_effects().begin(), candidate_effects().end());
+  std::erase_if(rows, [](const Effect& row) { return row.source.empty(); });
+  REQUIRE(options.size() == rows.size());
   Names names, sides;
   for (std::size_t k = 0; k < options.size(); ++k) {
-    const Effect& row = candidate_effects()[k];
+    const Effect& row = rows[k];
     const JsonNode& keys = options[k].at("properties");
     names.insert(std::string(row.name));
     sides.insert(std::string(to_string(row.site)));
