@@ -1,16 +1,15 @@
 #include "cablefit/model/principal_copies.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <optional>
 
+#include "cablefit/base/covariance_root.hpp"
 #include "cablefit/model/model_parameters.hpp"
 
 namespace cablefit {
 namespace {
 
-constexpr double kRounding = 1e-12;  // of a correlation matrix' eigenvalues
 // Up, down, and ever less: a parameter that is less sure than large leaves its bounds soon.
 constexpr std::array<double, 6> kSteps = {1, -1, 0.3, -0.3, 0.1, -0.1};
 
@@ -32,19 +31,6 @@ Known known_parameters(const Model& model) {
     known.places.push_back(place);
   }
   return known;
-}
-
-/// Columns whose outer products add up to the covariance. Axes are those of the correlations: the
-/// parameters have different units.
-Eigen::MatrixXd principal_axes(const Eigen::MatrixXd& covariance) {
-  const Eigen::VectorXd sd = covariance.diagonal().cwiseSqrt();
-  const Eigen::MatrixXd correlation =
-      sd.cwiseInverse().asDiagonal() * covariance * sd.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation);
-  const Eigen::Index n_rounding = (eigen.eigenvalues().array() <= kRounding).count();
-  const Eigen::Index n = sd.size() - n_rounding;  // eigenvalues ascend
-  const Eigen::VectorXd spread = eigen.eigenvalues().tail(n).cwiseSqrt();
-  return sd.asDiagonal() * eigen.eigenvectors().rightCols(n) * spread.asDiagonal();
 }
 
 /// The model with its parameters moved by `step`; nothing when one leaves its bounds.
@@ -70,8 +56,9 @@ std::vector<MovedModel> principal_copies(const Model& model) {
   std::vector<MovedModel> copies;
   const Known known = known_parameters(model);
   if (known.places.empty()) return copies;
-  const Eigen::MatrixXd axes = principal_axes(model.covariance.matrix(known.places, known.places));
+  const Eigen::MatrixXd axes = covariance_root(model.covariance.matrix(known.places, known.places));
   for (const auto& axis : axes.colwise()) {
+    if (axis.isZero(0)) continue;
     for (const double by : kSteps) {
       auto copy = moved(model, known.parameters, by * axis);
       if (!copy) continue;

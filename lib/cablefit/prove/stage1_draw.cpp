@@ -1,15 +1,9 @@
 #include "cablefit/prove/stage1_draw.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "cablefit/base/covariance_root.hpp"
 
 namespace cablefit {
 namespace {
-
-/// A root of a covariance, also of one that is only semidefinite.
-Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
-  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
-}
 
 void add(const Eigen::VectorXd& error, Transmission& transmission) {
   Eigen::Index next = 0;
@@ -30,7 +24,7 @@ ElasticResult draw_stage1(const ElasticResult& result, const std::string& preloa
     for (ElasticFit& fit : p.fits)
       if (p.name == preload && fit.model == truth.model) {
         fit = truth;
-        if (n > 0) add(root_of(truth.covariance) * normal, fit.transmission);
+        if (n > 0) add(covariance_root(truth.covariance) * normal, fit.transmission);
       }
   return drawn;
 }

@@ -1,12 +1,12 @@
 #include "cablefit/estimate/spread/long_run.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "cablefit/base/covariance_root.hpp"
 #include "cablefit/estimate/spread/autoregression.hpp"
 
 namespace cablefit {
@@ -199,25 +199,12 @@ Eigen::MatrixXd kernel_sum(const Eigen::MatrixXd& v, double bandwidth) {
   return total;
 }
 
-/// r with r r' = a, for a symmetric a without negative eigenvalues. It is first scaled to ones on
-/// its diagonal: variances in (N/m^3)^2 and (N m)^2 side by side differ by 10^20, and small
-/// eigenvalues would be smaller than the rounding of the large ones.
-Eigen::MatrixXd root_of(const Eigen::MatrixXd& a) {
-  const Eigen::VectorXd scale =
-      a.diagonal().unaryExpr([](double x) { return x > 0 ? std::sqrt(x) : 1.0; });
-  const Eigen::VectorXd over = scale.cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(over.asDiagonal() * a *
-                                                             over.asDiagonal());
-  return scale.asDiagonal() * eigen.eigenvectors() *
-         eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
-}
-
 }  // namespace
 
 FittedOut fitted_out(const std::vector<Eigen::MatrixXd>& information,
                      const Eigen::MatrixXd& solve_operator) {
   const Eigen::Index p = solve_operator.rows(), n = static_cast<Eigen::Index>(information.size());
-  const Eigen::MatrixXd root = root_of(solve_operator);
+  const Eigen::MatrixXd root = covariance_root(solve_operator);
   FittedOut out;
   out.columns.assign(static_cast<std::size_t>(p), Eigen::MatrixXd::Zero(n, p));
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(p, p);

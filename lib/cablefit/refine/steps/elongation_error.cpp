@@ -1,16 +1,11 @@
 #include "cablefit/refine/steps/elongation_error.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <algorithm>
-#include <cmath>
-
+#include "cablefit/base/covariance_root.hpp"
 #include "cablefit/refine/rows/recorded_effects.hpp"
 #include "cablefit/refine/rows/refined_model.hpp"
 
 namespace cablefit {
 namespace {
-
-constexpr double kRounding = 1e-12;  // of the largest eigenvalue
 
 /// Makes each l_o longer by `step`; false: the design has none of these cables.
 bool lengthen(const ElongationCovariance& known, const Eigen::VectorXd& step, Design& design) {
@@ -45,13 +40,10 @@ bool add_elongation_errors(const Design& design, const Eigen::VectorXd& x, const
   const Design as_is = rebuilt(design, x);
   const auto here = change(as_is);
   if (!here) return false;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(known.matrix);
-  const Eigen::VectorXd& variance = eigen.eigenvalues();
-  for (Eigen::Index axis = 0; axis < variance.size(); ++axis) {
-    if (variance(axis) <= kRounding * variance.maxCoeff()) continue;
+  const Eigen::MatrixXd axes = covariance_root(known.matrix);
+  for (const auto& axis : axes.colwise()) {
     Design moved = as_is;
-    if (!lengthen(known, std::sqrt(variance(axis)) * eigen.eigenvectors().col(axis), moved))
-      continue;
+    if (axis.isZero(0) || !lengthen(known, axis, moved)) continue;
     const auto there = change(rebuilt(moved, x));
     if (!there) return false;
     add_systematic({there->x - here->x, there->shapes - here->shapes}, fit);
