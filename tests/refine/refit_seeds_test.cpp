@@ -33,6 +33,7 @@ struct Inside {
     inside += e.ci_low <= truth && truth <= e.ci_high ? 1 : 0;
   }
   double share() const { return inside / n; }
+  double rms() const { return std::sqrt(squared / n); }
 };
 
 std::map<std::string, double> truth_of(const HiddenLogs& logs) {
@@ -101,12 +102,12 @@ TEST_CASE("intervals of a model with two effects cover the truth", "[refine][slo
   std::printf(
       "  %s: %.1f %% of %.0f inside their 95 %% interval, errors of %.2f sd rms; %.0f more are "
       "not determined\n",
-      estimator.c_str(), 100 * all.share(), all.n, std::sqrt(all.squared / all.n),
-      all.undetermined);
+      estimator.c_str(), 100 * all.share(), all.n, all.rms(), all.undetermined);
   for (const auto& [name, table] : tables)
-    std::printf("    %-32s %3.0f %% of %.0f\n", name.c_str(), 100 * table.share(), table.n);
+    std::printf("    %-32s %3.0f %% of %.0f, %.2f sd rms\n", name.c_str(), 100 * table.share(),
+                table.n, table.rms());
   CHECK(all.share() > (full_monte_carlo() ? 0.9 : 0.8));
-  CHECK(std::sqrt(all.squared / all.n) > 0.5);  // intervals that are far too wide cover too
+  CHECK(all.rms() > 0.5);  // intervals that are far too wide cover too
   CHECK(all.undetermined < 0.25 * (all.n + all.undetermined));
 }
 
