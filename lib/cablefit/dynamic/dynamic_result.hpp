@@ -110,6 +110,14 @@ struct DynamicPreload {
 };
 
 struct DynamicResult {
+  // Compiled once in dynamic_result.cpp, not in every file that copies or destroys one.
+  DynamicResult();
+  DynamicResult(const DynamicResult&);
+  DynamicResult(DynamicResult&&) noexcept;
+  DynamicResult& operator=(const DynamicResult&);
+  DynamicResult& operator=(DynamicResult&&) noexcept;
+  ~DynamicResult();
+
   std::vector<InputFile> inputs;
   std::vector<DynamicPreload> preloads;
   std::vector<std::string> warnings;

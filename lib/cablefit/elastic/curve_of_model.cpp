@@ -73,7 +73,9 @@ ElasticResult curve_of(const Model& model) {
   preload.selected = fit.model;
   if (model.rig.n_joints() > 1)
     for (const std::string& joint : model.rig.joints) preload.joints.emplace_back().name = joint;
-  return {{}, {std::move(preload)}, {}};
+  ElasticResult result;
+  result.preloads.push_back(std::move(preload));
+  return result;
 }
 
 }  // namespace cablefit

@@ -39,4 +39,11 @@ std::string model_text(const ElasticFit& fit) {
   return fit.model == "linear" ? fit.model : fmt::format("{}, {}", fit.model, order_text(fit));
 }
 
+ElasticResult::ElasticResult() = default;
+ElasticResult::ElasticResult(const ElasticResult&) = default;
+ElasticResult::ElasticResult(ElasticResult&&) noexcept = default;
+ElasticResult& ElasticResult::operator=(const ElasticResult&) = default;
+ElasticResult& ElasticResult::operator=(ElasticResult&&) noexcept = default;
+ElasticResult::~ElasticResult() = default;
+
 }  // namespace cablefit

@@ -130,10 +130,18 @@ std::string order_text(const ElasticFit& fit);
 std::string model_text(const ElasticFit& fit);
 
 struct ElasticResult {
+  // Compiled once in elastic_result.cpp, not in every file that copies or destroys one.
+  ElasticResult();
+  ElasticResult(const ElasticResult&);
+  ElasticResult(ElasticResult&&) noexcept;
+  ElasticResult& operator=(const ElasticResult&);
+  ElasticResult& operator=(ElasticResult&&) noexcept;
+  ~ElasticResult();
+
   std::vector<InputFile> inputs;
   std::vector<ElasticPreload> preloads;
-  ElongationCovariance elongations = {};  ///< of the l_o that were searched
-  std::vector<std::string> warnings = {};
+  ElongationCovariance elongations;  ///< of the l_o that were searched
+  std::vector<std::string> warnings;
 };
 
 }  // namespace cablefit
