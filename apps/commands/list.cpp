@@ -1,6 +1,8 @@
 // cablefit list: the tables of the library, as they are.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "cablefit/dynamic/dynamic_fit.hpp"
@@ -9,6 +11,7 @@
 #include "cablefit/model/arm.hpp"
 #include "cablefit/model/cables.hpp"
 #include "cablefit/model/effects.hpp"
+#include "cablefit/model/effects/effect_parameter.hpp"
 #include "cablefit/model/load.hpp"
 #include "cablefit/report/writers/list_json.hpp"
 #include "cablefit/report/writers/writers.hpp"
@@ -59,18 +62,59 @@ Table effect_table(const std::string& title, std::span<const Effect> effects) {
   return table;
 }
 
-std::vector<Table> effect_tables() {
-  Table differences = text_table_of("What separates similar effects",
-                                    {"name", "side", "never from", "signature", "experiment"});
-  differences.detail = true;
+Table difference_table() {
+  Table table = text_table_of("What separates similar effects",
+                              {"name", "side", "never from", "signature", "experiment"});
+  table.detail = true;
   for (const Effect& row : candidate_effects())
-    differences.rows.push_back({std::string(row.name), std::string(to_string(row.site)),
-                                aliases_of(row), std::string(row.signature),
-                                std::string(row.experiment)});
+    table.rows.push_back({std::string(row.name), std::string(to_string(row.site)), aliases_of(row),
+                          std::string(row.signature), std::string(row.experiment)});
+  return table;
+}
+
+/// As --effects takes it: with its side where the effect acts on several.
+std::string option_name(const Effect& row) {
+  const std::span<const Effect> all = effects();
+  const auto n_sides = std::count_if(all.begin(), all.end(),
+                                     [&](const Effect& other) { return other.name == row.name; });
+  return n_sides == 1 ? std::string(row.name)
+                      : fmt::format("{}[{}]", row.name, to_string(row.site));
+}
+
+/// "0 .. 1, default 0"; short, so that the names of effects stay whole on the screen.
+std::string values_of(const Effect& row, std::size_t parameter) {
+  const ParameterInfo& info = row.parameters[parameter];
+  std::string text;
+  if (std::isfinite(info.lower))
+    text = std::isfinite(info.upper) ? fmt::format("{:g} .. {:g}", info.lower, info.upper)
+                                     : fmt::format(">= {:g}", info.lower);
+  if (may_be_left_out(row, parameter)) text += text.empty() ? "default 0" : ", default 0";
+  return text;
+}
+
+Table parameter_table() {
+  Table table = text_table_of("Parameters of the effects",
+                              {"effect", "parameter", "unit", "values", "meaning"});
+  table.detail = true;
+  for (const Effect& row : effects()) {
+    const std::string effect = option_name(row);
+    for (std::size_t k = 0; k < row.parameters.size(); ++k) {
+      const ParameterInfo& info = row.parameters[k];
+      table.rows.push_back({effect, std::string(info.name), std::string(info.unit),
+                            values_of(row, k), std::string(info.meaning)});
+    }
+    if (!row.is_event) continue;
+    table.rows.push_back({effect, "event.time", "s", "", "when, since its log began"});
+    table.rows.push_back({effect, "event.log", "", ">= 1, default 1", "number of its log"});
+  }
+  return table;
+}
+
+std::vector<Table> effect_tables() {
   return {
       effect_table("Base model", base_effects()),
       effect_table("Effects beyond the base model, which refine may identify", candidate_effects()),
-      differences,
+      difference_table(), parameter_table(),
       effect_table("Errors of the rig file, which refine may identify from several joints together",
                    rig_errors())};
 }
@@ -161,7 +205,8 @@ int run_list(const Arguments& arguments) {
   std::string wanted;
   app.add_option("WHAT", wanted, "effects, models, estimators or formats [all]")->type_name("");
   app.add_option("--json", options.json, "as JSON; - for standard output")->type_name("FILE");
-  app.add_flag("--verbose", options.verbose, "also print what separates similar effects");
+  app.add_flag("--verbose", options.verbose,
+               "also print parameters, and what separates similar effects");
   app.footer(kListExample);
   if (!parse(app, arguments)) return 0;
   if (!wanted.empty()) require_known("list", wanted, section_names());

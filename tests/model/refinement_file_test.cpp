@@ -1,7 +1,6 @@
 // "refinements" of a joint in a model file.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <set>
 #include <string>
 
 #include "cablefit/base/json/json_document.hpp"

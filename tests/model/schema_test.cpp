@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cablefit/base/json/json_document.hpp"
+#include "cablefit/model/effects/effect_parameter.hpp"
 #include "cablefit/model/model.hpp"
 #include "cablefit/results/read_model.hpp"
 #include "tests/support/message.hpp"
@@ -129,10 +130,15 @@ TEST_CASE("the rig schema has every map of two joints") {
   CHECK(maps == known_to_rig_reader(start + R"(?"}}]})"));
 }
 
-Names parameters_of(const Effect& row) {
-  Names names;
-  for (const ParameterInfo& info : row.parameters) names.insert(std::string(info.name));
-  return names;
+/// A model file needs all parameters of a row but those that may be 0.
+void check_parameters(const JsonNode& node, const Effect& row) {
+  Names names, required;
+  for (std::size_t k = 0; k < row.parameters.size(); ++k) {
+    names.insert(std::string(row.parameters[k].name));
+    if (!may_be_left_out(row, k)) required.insert(std::string(row.parameters[k].name));
+  }
+  CHECK(properties(node) == names);
+  CHECK(texts(node.at("required")) == required);
 }
 
 TEST_CASE("the effects schema has the base model with its parameters") {
@@ -142,7 +148,7 @@ TEST_CASE("the effects schema has the base model with its parameters") {
     Names names;
     for (const Effect& effect : base_effects(side)) {
       names.insert(std::string(effect.name));
-      CHECK(properties(side_node.at("properties").at(effect.name)) == parameters_of(effect));
+      check_parameters(side_node.at("properties").at(effect.name), effect);
     }
     CHECK(properties(side_node) == names);
   }
@@ -164,7 +170,8 @@ TEST_CASE("the effects schema has every row of the catalogue with its parameters
     sides.insert(std::string(to_string(row.site)));
     CHECK(keys.at("name").at("const").text() == row.name);
     CHECK(keys.at("side").at("const").text() == to_string(row.site));
-    CHECK(properties(keys.at("parameters")) == parameters_of(row));
+    check_parameters(keys.at("parameters"), row);
+    CHECK(texts(options[k].at("required")).count("event") == (row.is_event ? 1 : 0));
   }
   const JsonNode& keys = refinement.at("properties");
   CHECK(texts(keys.at("name").at("enum")) == names);

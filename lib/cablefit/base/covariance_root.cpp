@@ -5,9 +5,8 @@
 
 namespace cablefit {
 
-constexpr double kRounding = 1e-12;  // of the eigenvalues of a matrix with ones on its diagonal
-
 Eigen::MatrixXd covariance_root(const Eigen::MatrixXd& a) {
+  constexpr double kRounding = 1e-12;  // of eigenvalues where the diagonal is 1
   if (a.size() == 0) return a;
   const Eigen::VectorXd scale =
       a.diagonal().unaryExpr([](double x) { return x > 0 ? std::sqrt(x) : 1.0; });

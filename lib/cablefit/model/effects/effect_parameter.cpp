@@ -27,4 +27,9 @@ std::string added_parameter_name(const Effect& row, const ParameterInfo& info) {
   return fmt::format("{}[{}].{}", row.name, to_string(row.site), info.name);
 }
 
+bool may_be_left_out(const Effect& row, std::size_t parameter) {
+  if (parameter < row.n_linear()) return false;
+  return row.shape[parameter - row.n_linear()].low == 0;
+}
+
 }  // namespace cablefit

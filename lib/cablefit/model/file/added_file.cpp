@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cablefit/base/quote.hpp"
+#include "cablefit/model/effects/effect_parameter.hpp"
 #include "cablefit/model/file/parts.hpp"
 #include "cablefit/model/json_reading.hpp"
 
@@ -29,12 +30,6 @@ Estimate read_parameter(const JsonNode& node, const ParameterInfo& info, Axes ax
                    fmt::format("expected {}: {}", range, info.meaning));
 }
 
-/// A shape that may be 0; a file may leave it out, and then it is 0.
-bool is_optional(const Effect& row, std::size_t parameter) {
-  if (parameter < row.n_linear()) return false;
-  return row.shape[parameter - row.n_linear()].low == 0;
-}
-
 Estimate left_out(const ParameterInfo& info, Axes axes) {
   Estimate estimate;
   estimate.name = info.name;
@@ -53,7 +48,7 @@ std::vector<Estimate> read_parameters(const JsonNode* node, const JsonNode& row_
   for (std::size_t p = 0; p < row.parameters.size(); ++p) {
     const ParameterInfo& info = row.parameters[p];
     known.push_back(info.name);
-    if (is_optional(row, p) && !values.find(info.name))
+    if (may_be_left_out(row, p) && !values.find(info.name))
       parameters.push_back(left_out(info, axes));
     else
       parameters.push_back(read_parameter(values.at(info.name), info, axes));

@@ -13,8 +13,8 @@ namespace cablefit {
 void add_systematic(const ValueChange& error, FinalFit& fit);
 
 /// Adds the error of l_o to the covariance of the fit. The values are fitted again, rows weighted
-/// by 1/level^2, with l_o one sd away along each axis of its covariance (m^2 or rad^2). False: one
-/// of these fits does not exist, and its part is missing.
+/// by 1/level^2, with l_o moved by each column of a root of its covariance (m^2 or rad^2). False:
+/// one of these fits does not exist, and its part is missing.
 bool add_elongation_errors(const Design& design, const Eigen::VectorXd& x, const KindLevels& levels,
                            const RefineBench& bench, FinalFit& fit);
 
