@@ -25,10 +25,18 @@ TEST_CASE("a root of a covariance does not depend on units") {
 }
 
 TEST_CASE("a root of a singular covariance has a column of zeros per zero eigenvalue") {
-  const Eigen::Vector3d axis(1.0 / 3, -0.7, 0);  // the third does not vary
-  const Eigen::MatrixXd a = axis * axis.transpose();
+  Eigen::MatrixXd factors(4, 2);
+  factors << 1.0 / 3, 0.2, -0.7, 0.1, 0.9, -1.0 / 7, 0.3, 0.6;
+  const Eigen::MatrixXd a = factors * factors.transpose();  // two eigenvalues are 3e-17 and 3e-16
   const Eigen::MatrixXd r = covariance_root(a);
-  CHECK((r.colwise().norm().array() > 0).count() == 1);
+  CHECK((r.colwise().norm().array() > 0).count() == 2);
+  CHECK((r * r.transpose() - a).cwiseAbs().maxCoeff() < 1e-14);
+}
+
+TEST_CASE("a root of a covariance leaves out what does not vary") {
+  const Eigen::MatrixXd a = Eigen::Vector3d(4, 0, 9).asDiagonal();
+  const Eigen::MatrixXd r = covariance_root(a);
+  CHECK((r.colwise().norm().array() > 0).count() == 2);
   CHECK((r * r.transpose() - a).cwiseAbs().maxCoeff() < 1e-14);
   CHECK(covariance_root(Eigen::MatrixXd(0, 0)).size() == 0);
 }
