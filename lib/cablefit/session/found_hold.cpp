@@ -67,7 +67,7 @@ TorqueLateness later(const SplitLateness& late) {
 /// Sample periods, s.
 struct HoldRows {
   double moving = 0;
-  std::optional<double> slow_blocked;  ///< nothing: blocked logs are not slower, or differ
+  double slow_blocked = 0;  ///< 0: blocked logs are not slower, or differ
 };
 
 struct Lateness {
@@ -79,11 +79,11 @@ Lateness lateness_of(const RefineLogs& logs, const std::vector<Model>& models,
                      const HoldRows& rows) {
   const std::vector<LogSurvey> fitted = logs.fitted();
   Lateness late;
-  if (rows.slow_blocked)
+  if (rows.slow_blocked > 0)
     late.split = best_of_joints<SplitLateness>(
         models,
         [&](const std::vector<Model>& one) {
-          return fit_split_lateness(one, fitted, rows.moving, *rows.slow_blocked);
+          return fit_split_lateness(one, fitted, rows.moving, rows.slow_blocked);
         },
         [](const SplitLateness& split) { return later(split).sd; });
   if (late.split)
@@ -102,7 +102,7 @@ Lateness lateness_of(const RefineLogs& logs, const std::vector<Model>& models,
 std::optional<Decision> take_period(const SplitLateness& split, const HoldRows& rows,
                                     RefineLogs& logs, std::vector<Model>& models) {
   if (models.front().rig.torque_hold == TorqueHold::none) return std::nullopt;  // just found
-  if (!is_same_drive(later(split), *rows.slow_blocked, rows.moving).value_or(false))
+  if (!is_same_drive(later(split), rows.slow_blocked, rows.moving).value_or(false))
     return std::nullopt;
   const double found = models.front().rig.torque_period;
   const FoundHold hold{true, found > 0 ? found : rows.moving};
@@ -148,8 +148,8 @@ std::vector<Decision> take_fitted_hold(RefineLogs& logs, std::vector<Model>& mod
   const bool period_is_open = is_period_open(logs, models);
   const std::optional<double> moving = row_of(logs.train, Phase::moving);
   if (!moving) return {};
-  const HoldRows rows{*moving, period_is_open ? slow_blocked_row(logs, *moving) : std::nullopt};
-  if (!hold_is_open && !rows.slow_blocked) return {};
+  const HoldRows rows{*moving, period_is_open ? slow_blocked_row(logs, *moving).value_or(0) : 0};
+  if (!hold_is_open && rows.slow_blocked == 0) return {};
   const Lateness late = lateness_of(logs, models, rows);
   std::vector<Decision> decisions;
   const auto add = [&](std::optional<Decision> decision) {
